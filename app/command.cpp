@@ -1,0 +1,60 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+#include "app/command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "datasets/input_error.hpp"
+
+namespace isotach::app {
+
+datasets::ReadOptions CommonOptions::read_options() const {
+  datasets::ReadOptions options;
+  options.max_bytes = static_cast<std::uintmax_t>(max_file_megabytes * 1e6);
+  return options;
+}
+
+Run::Run(std::string command, const std::filesystem::path& input)
+    : info_{std::move(command), ISOTACH_VERSION, input}, start_(std::chrono::steady_clock::now()) {}
+
+reports::RunInfo Run::info() const {
+  reports::RunInfo info = info_;
+  info.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return info;
+}
+
+int guarded(const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const datasets::InputError& error) {
+    fmt::print(stderr, "isotach: {}\n", error.what());
+    return kBadInput;
+  } catch (const reports::OutputError& error) {
+    fmt::print(stderr, "isotach: {}\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "isotach: {}\n", error.what());
+    return kNumericsFailed;
+  }
+}
+
+int end_failed(reports::OutputDirectory& output, const nlohmann::ordered_json& result, const std::string& message,
+               bool interrupted) {
+  if (interrupted) {
+    fmt::print(stderr, "isotach: interrupted; nothing was written\n");
+    return kInterrupted;
+  }
+  output.write_json("result.json", result);
+  output.commit();
+  fmt::print(stderr, "isotach: {}\n", message);
+  return kNumericsFailed;
+}
+
+int end_done(reports::OutputDirectory& output, bool quiet) {
+  output.commit();
+  if (!quiet) fmt::print("report: {}\n", (output.destination() / "report.html").string());
+  return kDone;
+}
+
+}  // namespace isotach::app

@@ -1,0 +1,119 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// isotach fit-oedometer, fit-slump and calibrate: from a study to parameters and a report.
+#include <fmt/format.h>
+
+#include "app/command.hpp"
+#include "app/interrupt.hpp"
+#include "calibration/calibrate.hpp"
+#include "datasets/input_error.hpp"
+#include "datasets/study.hpp"
+#include "reports/calibration_report.hpp"
+#include "reports/curves_csv.hpp"
+#include "reports/oedometer_report.hpp"
+#include "reports/parameters_toml.hpp"
+#include "reports/result_json.hpp"
+#include "reports/slump_fit_report.hpp"
+#include "reports/terminal_progress.hpp"
+
+namespace isotach::app {
+
+namespace {
+
+template <class Tests>
+void require_fitted(const datasets::Study& study, const Tests& tests, const char* kind) {
+  for (const auto& test : tests) {
+    if (!test.hold_out) return;
+  }
+  throw datasets::InputError(datasets::FilePlace{study.file}, kind, "none that is not held out",
+                             "at least one test to fit");
+}
+
+void require_parameters(const datasets::Study& study, const std::vector<model::ParameterId>& list, const char* key) {
+  if (list.empty()) {
+    throw datasets::InputError(datasets::FilePlace{study.file}, key, "an empty list", "at least one parameter to fit");
+  }
+}
+
+/// Everything a fit writes.
+template <class Fit, class Report>
+int publish(reports::OutputDirectory& output, const CommonOptions& options, const Run& run,
+            const datasets::Study& study, const Fit& fit, Report&& report) {
+  const reports::RunInfo info = run.info();
+  output.write_text("report.html", report(info, study, fit).html());
+  output.write_text("parameters.toml", reports::parameters_toml(info, fit));
+  reports::write_curves(output, fit);
+  output.write_json("result.json", reports::result_json(run.info(), study, fit));
+  return end_done(output, options.quiet);
+}
+
+int failed(reports::OutputDirectory& output, const Run& run, const calibration::FitFailure& failure) {
+  return end_failed(output, reports::failure_json(run.info(), failure), failure.message, failure.interrupted);
+}
+
+}  // namespace
+
+int fit_oedometer(const CommonOptions& options) {
+  const Run run("fit-oedometer", options.input);
+  const datasets::Study study = datasets::read_study(options.input, options.read_options());
+  require_fitted(study, study.oedometer_tests, "[[oedometer]]");
+  require_parameters(study, study.fit.oedometer, "[fit] oedometer");
+  reports::OutputDirectory output(options.out);
+  reports::Progress progress("fit-oedometer", options.quiet);
+  calibration::OedometerFitOptions fit_options;
+  fit_options.threads = options.threads;
+  fit_options.control.stop = &interrupted();
+  fit_options.control.callback = [&](int evaluations, double cost) {
+    progress.update(HUGE_VAL, fmt::format("evaluation {}, cost {:.5g}", evaluations, cost));
+  };
+  const auto fit = calibration::fit_oedometer(study, study.material, study.fit.oedometer, fit_options);
+  if (!fit) return failed(output, run, fit.error());
+  progress.finish();
+  return publish(output, options, run, study, *fit, reports::oedometer_report);
+}
+
+int fit_slump(const CommonOptions& options) {
+  const Run run("fit-slump", options.input);
+  const datasets::Study study = datasets::read_study(options.input, options.read_options());
+  require_fitted(study, study.slump_tests, "[[slump]]");
+  require_parameters(study, study.fit.slump, "[fit] slump");
+  reports::OutputDirectory output(options.out);
+  reports::Progress progress("fit-slump", options.quiet);
+  calibration::SlumpFitOptions fit_options;
+  fit_options.threads = options.threads;
+  fit_options.control.stop = &interrupted();
+  fit_options.control.callback = [&](int evaluations, double cost) {
+    // a search usually ends within two thirds of the evaluations it may use; the rest is the uncertainty's
+    const double expected = 0.67 * fit_options.max_evaluations;
+    if (evaluations < 0) {
+      progress.update(0.85, "uncertainty and comparison of all tests");
+    } else {
+      progress.update(std::min(0.85, 0.85 * evaluations / expected),
+                      fmt::format("evaluation {}, cost {:.5g}", evaluations, cost));
+    }
+  };
+  const auto fit = calibration::fit_slump(study, study.material, fit_options);
+  if (!fit) return failed(output, run, fit.error());
+  progress.finish();
+  return publish(output, options, run, study, *fit, reports::slump_fit_report);
+}
+
+int calibrate(const CommonOptions& options) {
+  const Run run("calibrate", options.input);
+  const datasets::Study study = datasets::read_study(options.input, options.read_options());
+  require_fitted(study, study.oedometer_tests, "[[oedometer]]");
+  require_fitted(study, study.slump_tests, "[[slump]]");
+  require_parameters(study, study.fit.oedometer, "[fit] oedometer");
+  require_parameters(study, study.fit.slump, "[fit] slump");
+  reports::OutputDirectory output(options.out);
+  reports::Progress progress("calibrate", options.quiet);
+  calibration::CalibrateOptions calibrate_options;
+  calibrate_options.threads = options.threads;
+  calibrate_options.stop = &interrupted();
+  calibrate_options.progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); };
+  const auto result = calibration::calibrate(study, calibrate_options);
+  if (!result) return failed(output, run, result.error());
+  progress.finish();
+  return publish(output, options, run, study, *result, reports::calibration_report);
+}
+
+}  // namespace isotach::app

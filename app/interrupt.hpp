@@ -1,0 +1,15 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Ctrl-C as a flag that long work looks at.
+#pragma once
+
+#include <atomic>
+
+namespace isotach::app {
+
+/// From now on SIGINT and SIGTERM set interrupted(); a second one ends the program at once.
+void watch_interrupts();
+
+/// True once the user has asked to stop.
+[[nodiscard]] const std::atomic<bool>& interrupted();
+
+}  // namespace isotach::app

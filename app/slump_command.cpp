@@ -1,0 +1,42 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// isotach slump: one simulated slump test.
+#include <fmt/format.h>
+
+#include "app/command.hpp"
+#include "app/interrupt.hpp"
+#include "datasets/slump_file.hpp"
+#include "mpm/slump.hpp"
+#include "reports/curves_csv.hpp"
+#include "reports/particles_vtu.hpp"
+#include "reports/result_json.hpp"
+#include "reports/slump_report.hpp"
+#include "reports/terminal_progress.hpp"
+
+namespace isotach::app {
+
+int slump(const CommonOptions& options) {
+  const Run run("slump", options.input);
+  const datasets::SlumpFile test = datasets::read_slump_file(options.input, options.read_options());
+  reports::OutputDirectory output(options.out);
+  reports::Progress progress("slump", options.quiet);
+  mpm::RunOptions run_options;
+  run_options.snapshots = true;
+  run_options.stop = &interrupted();
+  run_options.progress = [&](double time) {
+    progress.update(time / test.setup.times.back(), fmt::format("t = {:.3f} s", time));
+  };
+  const auto result = mpm::run_slump(test.material, test.setup, run_options);
+  if (!result) {
+    return end_failed(output, reports::failure_json(run.info(), result.error()), result.error().message,
+                      result.error().kind == mpm::SlumpFailure::Kind::interrupted);
+  }
+  progress.finish();
+  const reports::RunInfo info = run.info();
+  output.write_text("report.html", reports::slump_report(info, test, *result).html());
+  reports::write_curves(output, *result);
+  reports::write_particles(output, result->snapshots);
+  output.write_json("result.json", reports::result_json(run.info(), test, *result));
+  return end_done(output, options.quiet);
+}
+
+}  // namespace isotach::app

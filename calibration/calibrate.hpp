@@ -1,0 +1,38 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// The main job: oedometer fit, slump fit, and the oedometer again at the slump's I_v until both stand still.
+#pragma once
+
+#include <functional>
+
+#include "calibration/fit_oedometer.hpp"
+#include "calibration/fit_slump.hpp"
+
+namespace isotach::calibration {
+
+/// One round of the chain.
+struct CalibrationRound {
+  model::Parameters<double> after_oedometer;
+  model::Parameters<double> after_slump;
+};
+
+struct Calibration {
+  OedometerFit first_oedometer;  ///< with what the study lets it move, before any slump was seen
+  OedometerFit oedometer;        ///< the last: at the slump's I_v and C_1
+  SlumpFit slump;                ///< the last
+  std::vector<CalibrationRound> rounds;
+  bool settled = false;  ///< the last round moved nothing that matters
+};
+
+struct CalibrateOptions {
+  int threads = 1;
+  int max_rounds = 4;
+  const std::atomic<bool>* stop = nullptr;
+  /// Fraction of the expected work done, and what is being done.
+  std::function<void(double, const std::string&)> progress;
+};
+
+/// Needs at least one fitted test of each kind.
+[[nodiscard]] tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
+                                                              const CalibrateOptions& options);
+
+}  // namespace isotach::calibration

@@ -1,0 +1,136 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+#include "calibration/fit_slump.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calibration/parallel.hpp"
+#include "calibration/uncertainty.hpp"
+
+namespace isotach::calibration {
+
+namespace {
+
+using SlumpExperiments = std::vector<std::shared_ptr<const experiments::SlumpExperiment>>;
+
+SlumpExperiments make_experiments(const datasets::Study& study, const std::atomic<bool>* stop) {
+  SlumpExperiments all;
+  for (const auto& test : study.slump_tests) {
+    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, stop));
+  }
+  return all;
+}
+
+/// Indices in the order in which threads should take the tests up, so that none waits for a long one at the end.
+std::vector<std::size_t> by_cost(const SlumpExperiments& all) {
+  std::vector<std::size_t> order(all.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return all[a]->cost() > all[b]->cost(); });
+  return order;
+}
+
+double rms_where(const experiments::Values& values, const std::vector<bool>& chosen) {
+  experiments::Values subset;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (chosen[i]) subset.push_back(values[i]);
+  }
+  return subset.empty() ? std::numeric_limits<double>::quiet_NaN() : experiments::root_mean_square(subset);
+}
+
+tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(const SlumpExperiments& all,
+                                                                   const model::Parameters<double>& parameters,
+                                                                   int threads) {
+  std::vector<tl::expected<mpm::SlumpResult, experiments::PredictionFailure>> simulations(all.size());
+  const std::vector<std::size_t> order = by_cost(all);
+  parallel_for(all.size(), threads, [&](std::size_t k) { simulations[order[k]] = all[order[k]]->simulate(parameters); });
+  std::vector<SlumpComparison> comparisons;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!simulations[i]) {
+      return tl::unexpected(FitFailure{simulations[i].error().message, simulations[i].error().interrupted});
+    }
+    SlumpComparison comparison{all[i], std::move(*simulations[i]), {}, 0.0, 0.0};
+    comparison.distances = all[i]->distances(comparison.simulation);
+    comparison.rms = experiments::root_mean_square(comparison.distances);
+    comparison.rms_mould_gone = rms_where(comparison.distances, all[i]->mould_gone());
+    comparisons.push_back(std::move(comparison));
+  }
+  return comparisons;
+}
+
+double rms_mould_gone(const std::vector<SlumpComparison>& comparisons) {
+  experiments::Values values;
+  for (const SlumpComparison& comparison : comparisons) {
+    for (std::size_t i = 0; i < comparison.distances.size(); ++i) {
+      if (comparison.experiment->mould_gone()[i]) values.push_back(comparison.distances[i]);
+    }
+  }
+  return experiments::root_mean_square(values);
+}
+
+}  // namespace
+
+tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study, const model::Parameters<double>& start,
+                                             const SlumpFitOptions& options) {
+  SlumpFit fit;
+  const SlumpExperiments all = make_experiments(study, options.control.stop);
+  Experiments fitted;
+  for (const std::size_t i : by_cost(all)) fitted.push_back(all[i]);
+  GaugeChoice gauge;  // D_r stays: the oedometer's gauge has been applied
+  const Problem problem(fitted, Parametrisation(start, study.fit.slump, study.fit.bounds, gauge), options.threads);
+  const Parametrisation& parametrisation = problem.parametrisation();
+  FitResult& result = fit.result;
+  result.free = parametrisation.free();
+  result.gauge = gauge;
+
+  NloptOptions nlopt;
+  nlopt.first_step = options.first_step;
+  nlopt.first_step_C_1 = options.first_step_C_1;
+  nlopt.coordinate_tolerance = 0.01;  // simulations carry noise of about this size
+  nlopt.cost_tolerance = 1e-3;
+  nlopt.max_evaluations = options.max_evaluations;
+  result.main = minimise_with_nlopt(problem, parametrisation.start(), nlopt, options.control);
+  if (result.main.interrupted) return tl::unexpected(FitFailure{"interrupted", true});
+  if (result.main.trace.empty()) {
+    return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + result.main.last_failure});
+  }
+  if (!result.main.converged) result.warnings.push_back("NLopt stopped early: " + result.main.termination);
+  if (result.main.failed_evaluations > 0) {
+    result.warnings.push_back(fmt::format("{} of {} evaluations failed and were refused; the last: {}",
+                                          result.main.failed_evaluations, result.main.evaluations,
+                                          result.main.last_failure));
+  }
+  fit.simulations = result.main.evaluations * static_cast<int>(problem.fitted().size());
+  result.parameters = *parametrisation.at(result.main.coordinates);
+  if (!options.uncertainty) return fit;
+
+  if (options.control.callback) options.control.callback(-1, result.main.cost);
+  auto uncertainty = estimate_uncertainty(problem, result.main.coordinates, Correlation::serial);
+  if (!uncertainty) {
+    return tl::unexpected(FitFailure{uncertainty.error().message, uncertainty.error().interrupted});
+  }
+  fit.simulations += static_cast<int>(problem.fitted().size() * (1 + 2 * result.free.size()));
+  result.uncertainty = std::move(*uncertainty);
+  result.correlation = correlation_of(result.uncertainty.covariance);
+  result.estimates = estimate_parameters(problem, result.main.coordinates, result.uncertainty);
+
+  auto comparisons = compare_all(all, *result.parameters, options.threads);
+  if (!comparisons) return tl::unexpected(comparisons.error());
+  fit.comparisons = std::move(*comparisons);
+  fit.simulations += static_cast<int>(all.size());
+  fit.rms_mould_gone = rms_mould_gone(fit.comparisons);
+  result.adequate = true;
+  for (const SlumpComparison& comparison : fit.comparisons) {
+    const experiments::Values scaled = comparison.experiment->scaled_residuals(comparison.distances);
+    const TestSummary test{comparison.experiment->name(), comparison.experiment->held_out(), scaled.size(),
+                           comparison.rms, experiments::root_mean_square(scaled)};
+    if (!test.held_out && test.rms_over_noise > kAdequate) result.adequate = false;
+    result.tests.push_back(test);
+  }
+  return fit;
+}
+
+}  // namespace isotach::calibration

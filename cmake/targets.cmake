@@ -1,0 +1,25 @@
+# Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+# The compile flags every target shares, and how a folder becomes a library target.
+
+add_library(isotach_flags INTERFACE)
+target_include_directories(isotach_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(isotach_flags INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+# g++ 12 warns of its own AVX-512 headers wherever Eigen is inlined (_mm512_undefined_pd, GCC bug 105593)
+target_compile_options(isotach_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+if(ISOTACH_NATIVE)
+  target_compile_options(isotach_flags INTERFACE -march=native)
+endif()
+# Results do not depend on errno, nor on traps; nothing else of -ffast-math is allowed, so NaN stays NaN.
+target_compile_options(isotach_flags INTERFACE -fno-math-errno -fno-trapping-math)
+if(ISOTACH_DEVELOPER)
+  target_compile_options(isotach_flags INTERFACE -Werror)
+  target_compile_definitions(isotach_flags INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
+
+# isotach_library(NAME SOURCES... LINKS...): the library isotach::NAME of the folder NAME.
+function(isotach_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(isotach_${name} STATIC ${ARG_SOURCES})
+  add_library(isotach::${name} ALIAS isotach_${name})
+  target_link_libraries(isotach_${name} PUBLIC isotach_flags ${ARG_LINKS})
+endfunction()

@@ -1,0 +1,147 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// The sections that studies and slump files share: implementation.
+#include "datasets/study_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace isotach::datasets {
+namespace {
+
+using model::ParameterInfo;
+
+Range range_of(const ParameterInfo& parameter) {
+  return {parameter.lower, parameter.upper, parameter.lower_open, true};
+}
+
+/// Specimens and moulds of a laboratory; what is larger is a mistake of unit.
+constexpr Range kLength_mm = Range::positive(10000.0);
+
+}  // namespace
+
+model::Parameters<double> read_material(TomlTable material) {
+  model::ParameterValues<double> values;
+  for (const ParameterInfo& parameter : model::kParameterTable) {
+    values[parameter.id] = parameter.to_si * material.number(parameter.key, range_of(parameter));
+  }
+  for (const std::string_view key : {"C_2", "C_3"}) {
+    const double value = material.number_if(key, {}).value_or(0.0);
+    if (value != 0.0) {
+      throw material.error(key, fmt::format("{} is out of range", value),
+                           "0, as there is no anisotropic form yet");
+    }
+  }
+  constexpr std::array<std::string_view, 2> kLode{"matsuoka-nakai", "none"};
+  values.lode = material.choice_if("lode_dependence", kLode).value_or(0) == 0
+                    ? model::LodeDependence::matsuoka_nakai
+                    : model::LodeDependence::none;
+  material.reject_unknown_keys();
+  auto parameters = model::Parameters<double>::create(values);
+  if (!parameters) {
+    const model::ParameterError& error = parameters.error();
+    throw material.error(model::info(error.id).key, fmt::format("{} is out of range", error.value),
+                         error.accepted);
+  }
+  return *std::move(parameters);
+}
+
+void refuse_effects(TomlTable& root) {
+  const auto effects = root.table_if("effects");
+  if (!effects || effects->empty()) return;
+  throw InputError(effects->place(), "table [effects]",
+                   "it names effects, which this version cannot simulate", "no [effects], or an empty one");
+}
+
+mpm::Mould read_mould(TomlTable mould, Assumptions& assumptions) {
+  mpm::Mould result;
+  result.diameter = 1e-3 * mould.number("diameter_mm", kLength_mm);
+  result.fill_height = 1e-3 * mould.number("fill_height_mm", kLength_mm);
+  result.lift_speed = mould.number("lift_speed_m_per_s", Range::positive(10.0));
+  constexpr std::array<std::string_view, 2> kWalls{"smooth", "rough"};
+  const auto wall = mould.choice_if("wall", kWalls);
+  if (!wall) assumptions.add("wall of the mould not given, smooth assumed");
+  result.wall = wall.value_or(0) == 0 ? mpm::Wall::smooth : mpm::Wall::rough;
+  mould.reject_unknown_keys();
+  return result;
+}
+
+mpm::Mud read_mud(TomlTable mud, Assumptions& assumptions) {
+  mpm::Mud result;
+  result.void_ratio = mud.number_if("void_ratio", kVoidRatio);
+  if (const auto strength = mud.number_if("undrained_strength_kPa", Range::positive(1000.0))) {
+    if (result.void_ratio) {
+      throw mud.error("undrained_strength_kPa", "given together with void_ratio",
+                      "either void_ratio or undrained_strength_kPa");
+    }
+    result.undrained_strength = 1e3 * *strength;
+    result.strength_rate = mud.number_if("strength_rate_per_s", Range::positive(1000.0));
+    if (!result.strength_rate) {
+      assumptions.add("rate at which the undrained strength was measured not given, |D| = D_r assumed");
+    }
+  } else if (!result.void_ratio) {
+    throw mud.error("void_ratio", "it is missing", "either void_ratio or undrained_strength_kPa");
+  }
+  const auto specific_gravity = mud.number_if("specific_gravity", kSpecificGravity);
+  if (!specific_gravity) {
+    assumptions.add(fmt::format("specific gravity not given, {} assumed", kAssumedSpecificGravity));
+  }
+  result.specific_gravity = specific_gravity.value_or(kAssumedSpecificGravity);
+  const auto ocr = mud.number_if("ocr", Range::positive(100.0));
+  if (!ocr) {
+    assumptions.add(
+        fmt::format("initial overconsolidation ratio not given, {} assumed", result.overconsolidation_ratio));
+  }
+  result.overconsolidation_ratio = ocr.value_or(result.overconsolidation_ratio);
+  mud.reject_unknown_keys();
+  return result;
+}
+
+mpm::Base read_base(TomlTable& parent, Assumptions& assumptions) {
+  std::optional<std::size_t> kind;
+  if (auto base = parent.table_if("base")) {
+    constexpr std::array<std::string_view, 1> kKinds{"rough"};
+    kind = base->choice_if("kind", kKinds);
+    base->reject_unknown_keys();
+  }
+  if (!kind) assumptions.add("base not given, rough assumed");
+  return {mpm::BaseKind::rough};
+}
+
+mpm::Numerics read_numerics(TomlTable& root) {
+  mpm::Numerics result;
+  auto numerics = root.table_if("numerics");
+  if (!numerics) return result;
+  if (const auto size = numerics->number_if("cell_size_mm", kLength_mm)) result.cell_size = 1e-3 * *size;
+  if (const auto points = numerics->number_if("points_per_cell", {1.0, 100.0})) {
+    const double side = std::round(std::sqrt(*points));
+    if (side * side != *points) {
+      throw numerics->error("points_per_cell", fmt::format("{} is not a square number", *points),
+                            "1, 4, 9, 16, ..., 100");
+    }
+    result.points_per_cell = static_cast<int>(*points);
+  }
+  if (const auto modulus = numerics->number_if("water_bulk_modulus_kPa", Range::positive(2.2e6))) {
+    result.water_bulk_modulus = 1e3 * *modulus;
+  }
+  result.courant = numerics->number_if("courant", Range::positive(1.0)).value_or(result.courant);
+  result.tolerance = numerics->number_if("tolerance", Range::positive(0.1)).value_or(result.tolerance);
+  result.inertia_scaling =
+      numerics->number_if("inertia_scaling", {1.0, 1e6}).value_or(result.inertia_scaling);
+  result.artificial_viscosity =
+      numerics->number_if("artificial_viscosity", {0.0, 0.2}).value_or(result.artificial_viscosity);
+  numerics->reject_unknown_keys();
+  return result;
+}
+
+void check_cell_size(TomlTable& root, const mpm::SlumpSetup& setup) {
+  const double radius = 0.5 * setup.mould.diameter;
+  if (setup.numerics.cell_size <= radius) return;
+  const std::string found = fmt::format("{:.6g} is out of range", 1e3 * setup.numerics.cell_size);
+  const std::string accepted = fmt::format("at most the mould's radius, {:.6g}", 1e3 * radius);
+  if (auto numerics = root.table_if("numerics")) throw numerics->error("cell_size_mm", found, accepted);
+  throw InputError(root.place(), "cell_size_mm", found + " (its default)", accepted);
+}
+
+}  // namespace isotach::datasets

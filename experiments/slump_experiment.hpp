@@ -1,0 +1,50 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// A slump test: measured outlines against those of an MPM simulation.
+#pragma once
+
+#include <atomic>
+
+#include "datasets/study.hpp"
+#include "experiments/experiment.hpp"
+#include "mpm/slump.hpp"
+
+namespace isotach::experiments {
+
+/// The value of each measured point is its signed distance to the simulated outline of the same time (m); what is
+/// "measured" is therefore zero.
+class SlumpExperiment final : public Experiment {
+ public:
+  /// `stop` may be null; once true, simulations end early.
+  SlumpExperiment(datasets::SlumpTest test, const std::atomic<bool>* stop);
+
+  [[nodiscard]] const std::string& name() const override { return test_.name; }
+  [[nodiscard]] bool held_out() const override { return test_.hold_out; }
+  [[nodiscard]] const Values& measured() const override { return zeros_; }
+  [[nodiscard]] std::string_view quantity() const override { return "distance between outlines (m)"; }
+  [[nodiscard]] const Values& noise() const override { return noise_; }
+  [[nodiscard]] tl::expected<Values, PredictionFailure> predict(
+      const model::Parameters<double>& parameters) const override;
+
+  [[nodiscard]] const datasets::SlumpTest& test() const { return test_; }
+  /// The simulation behind predict().
+  [[nodiscard]] tl::expected<mpm::SlumpResult, PredictionFailure> simulate(
+      const model::Parameters<double>& parameters) const;
+  /// Values of a simulation.
+  [[nodiscard]] Values distances(const mpm::SlumpResult& result) const;
+  /// For each value, whether the rim had left the mud by then.
+  [[nodiscard]] const std::vector<bool>& mould_gone() const { return mould_gone_; }
+  /// For each value, the index of its outline.
+  [[nodiscard]] const std::vector<std::size_t>& outline_index() const { return outline_index_; }
+  /// Relative cost of a simulation, for sharing work out.
+  [[nodiscard]] double cost() const;
+
+ private:
+  datasets::SlumpTest test_;
+  const std::atomic<bool>* stop_;
+  Values zeros_;
+  Values noise_;
+  std::vector<bool> mould_gone_;
+  std::vector<std::size_t> outline_index_;
+};
+
+}  // namespace isotach::experiments

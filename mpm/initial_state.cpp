@@ -1,0 +1,43 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// The state the mud starts from: void ratio, pressures, density.
+#include <cmath>
+
+#include "model/law.hpp"
+#include "mpm/slump.hpp"
+
+namespace isotach::mpm {
+
+namespace {
+
+constexpr double kWaterDensity = 1000.0;  // kg/m3
+
+// C_u / p_B at the undrained critical state
+double strength_ratio(const model::Law<double>& law, double rate) {
+  const auto& parameters = law.parameters();
+  return 0.25 * law.critical_ratio() *
+         std::pow(rate * (1.0 - parameters.C_1()) / parameters.D_r(), parameters.I_v());
+}
+
+}  // namespace
+
+double void_ratio_from_strength(const model::Parameters<double>& parameters, double undrained_strength,
+                                double strength_rate) {
+  const model::Law<double> law(parameters);
+  return law.void_ratio_at(undrained_strength / strength_ratio(law, strength_rate));
+}
+
+InitialState initial_state(const model::Parameters<double>& parameters, const Mud& mud) {
+  const model::Law<double> law(parameters);
+  InitialState state;
+  state.strength_rate = mud.strength_rate.value_or(parameters.D_r());
+  state.void_ratio = mud.void_ratio ? *mud.void_ratio
+                                    : void_ratio_from_strength(parameters, mud.undrained_strength.value(),
+                                                               state.strength_rate);
+  state.preconsolidation_pressure = law.preconsolidation_pressure(state.void_ratio);
+  state.mean_effective_pressure = state.preconsolidation_pressure / mud.overconsolidation_ratio;
+  state.density = kWaterDensity * (mud.specific_gravity + state.void_ratio) / (1.0 + state.void_ratio);
+  state.undrained_strength = state.preconsolidation_pressure * strength_ratio(law, state.strength_rate);
+  return state;
+}
+
+}  // namespace isotach::mpm

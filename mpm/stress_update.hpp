@@ -1,0 +1,50 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// The VHP law advanced over a time step at all material points, many at once.
+#pragma once
+
+#include <array>
+
+#include "integrators/fellin_ostermann.hpp"
+#include "mpm/lanes.hpp"
+#include "mpm/particles.hpp"
+
+namespace isotach::mpm {
+
+/// How often a step needed more than the common path.
+struct StressUpdateCount {
+  long substepped = 0;  ///< point updates that needed adaptive substeps of their own
+  long floored = 0;     ///< point updates that ended at the least mean effective pressure
+};
+
+/// Midpoint steps (Fellin-Ostermann's accepted solution) for packs of points: one, or as many equal substeps
+/// as the pack's worst error estimate asks for. A point that still exceeds the tolerance is done again by
+/// itself with adaptive substeps.
+///
+/// A point whose mean effective pressure would fall below `least_pressure` leaves the law's domain (the
+/// skeleton loses contact); it is set to the isotropic stress of that pressure and counted.
+class StressUpdate {
+ public:
+  /// `tolerance` relative to |T|, > 0; `least_pressure` in Pa, > 0.
+  StressUpdate(const model::Parameters<double>& parameters, double tolerance, double least_pressure);
+
+  /// Updates stress and void ratio of all points from their strain_rate and spin over `dt` (s).
+  StressUpdateCount update(Particles& particles, double dt) const;
+
+ private:
+  using PlaneState = model::State<Lanes, model::kPlane>;
+
+  /// Advances a pack in equal substeps. `error` receives each point's largest EST/TOL, a huge value where it
+  /// left the domain; returns the largest of all.
+  double advance(PlaneState& y, const model::Mandel<Lanes, model::kPlane>& strain_rate,
+                 const Eigen::Matrix<Lanes, 3, 1>& spin, double dt, int substeps,
+                 std::array<double, Lanes::kCount>& error) const;
+  /// Updates point i by substeps. Returns false where it ended at the least pressure.
+  bool substep(Particles& particles, std::size_t i, double dt) const;
+
+  model::Law<double> law_;
+  model::Law<Lanes> lanes_law_;
+  double tolerance_;
+  double least_pressure_;
+};
+
+}  // namespace isotach::mpm

@@ -1,0 +1,116 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// The chain of fits, the consistency of its two experiments, and both fits in full.
+#include "reports/calibration_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/estimates.hpp"
+#include "reports/fit_sections.hpp"
+#include "reports/number.hpp"
+#include "reports/oedometer_report.hpp"
+#include "reports/slump_fit_report.hpp"
+
+namespace isotach::reports {
+namespace {
+
+using calibration::Calibration;
+using calibration::ParameterEstimate;
+using model::ParameterId;
+
+Table round_table(const Calibration& calibration) {
+  constexpr ParameterId kShown[] = {ParameterId::I_v,    ParameterId::C_1,   ParameterId::e100,
+                                    ParameterId::lambda, ParameterId::kappa, ParameterId::D_r};
+  Table table{.caption = "The chain: parameters after each step.",
+              .header = {"Round", "After"},
+              .alignment = {Alignment::left, Alignment::left}};
+  for (const ParameterId id : kShown) {
+    const model::ParameterInfo& info = model::info(id);
+    table.header.push_back(info.unit == "-" ? std::string(info.name)
+                                            : fmt::format("{} ({})", info.name, info.unit));
+    table.alignment.push_back(Alignment::right);
+  }
+  const auto add = [&](std::string round, std::string after, const model::Parameters<double>& parameters) {
+    std::vector<std::string> row{std::move(round), std::move(after)};
+    for (const ParameterId id : kShown) row.push_back(format_number(in_key_unit(id, parameters[id])));
+    table.rows.push_back(std::move(row));
+  };
+  for (std::size_t k = 0; k < calibration.rounds.size(); ++k) {
+    add(fmt::format("{}", k + 1), "oedometer fit", calibration.rounds[k].after_oedometer);
+    add("", "slump fit", calibration.rounds[k].after_slump);
+  }
+  add("last", "oedometer fit", *calibration.oedometer.result.parameters);
+  table.notes = {
+      "The oedometer fit takes I_v and C_1 from the slump fit before it, where that fit moves them; in "
+      "the first round they are those of the study, or its own."};
+  return table;
+}
+
+std::string value_and_interval(const ParameterEstimate& si) {
+  const ParameterEstimate estimate = in_key_unit(si);
+  return fmt::format("{} (95 % interval {})", format_with_error(estimate.value, estimate.std_error),
+                     interval_text(si));
+}
+
+/// I_v by both kinds of test, where both determine it: two experiments that a right model makes agree.
+void add_consistency(Page& page, const Calibration& calibration) {
+  const calibration::FitResult& oedometer = calibration.first_oedometer.result;
+  const calibration::FitResult& slump = calibration.slump.result;
+  if (!is_free(slump, ParameterId::I_v)) return;
+  if (!is_free(oedometer, ParameterId::I_v)) {
+    page.paragraph(
+        "The study does not let the oedometer fit move I_v, so whether both kinds of test ask for the same "
+        "I_v was not tested. Add \"I_v\" to [fit] oedometer to test it.");
+    return;
+  }
+  const ParameterEstimate& a = estimate_of(oedometer, ParameterId::I_v);
+  const ParameterEstimate& b = estimate_of(slump, ParameterId::I_v);
+  const bool overlap = a.ci95_lower <= b.ci95_upper && b.ci95_lower <= a.ci95_upper;
+  page.verdict(
+      overlap ? Tone::good : Tone::warning,
+      fmt::format("I_v from the oedometer alone is {}, from the slump {}: {}.", value_and_interval(a),
+                  value_and_interval(b),
+                  overlap ? "the intervals overlap, the two kinds of test agree"
+                          : "the intervals do not overlap, so the model cannot be right for both kinds of "
+                            "test with one I_v"));
+  page.paragraph(
+      fmt::format("Consistency of the two kinds of test: the oedometer sees strain rates of {} 1/s and "
+                  "below, the slump some six "
+                  "orders of magnitude above, and both have a say on I_v. Their values differ by {} combined "
+                  "standard errors.",
+                  format_number(calibration.oedometer.reference_rate, 2),
+                  format_number(std::abs(a.value - b.value) / std::hypot(a.std_error, b.std_error), 2)));
+}
+
+}  // namespace
+
+Page calibration_report(const RunInfo& run, const datasets::Study& study, const Calibration& calibration) {
+  Page page("Calibration", subtitle(run));
+  if (calibration.settled) {
+    page.verdict(Tone::good,
+                 fmt::format("The chain stands still after {} round{}: refitting the oedometer at the "
+                             "slump's answer moves nothing that matters.",
+                             calibration.rounds.size(), calibration.rounds.size() == 1 ? "" : "s"));
+  } else {
+    page.verdict(Tone::warning,
+                 fmt::format("After {} rounds the oedometer and the slump fit still move each other: "
+                             "treat the answer with care.",
+                             calibration.rounds.size()));
+  }
+  add_oedometer_summary(page, study, calibration.oedometer);
+  add_slump_fit_summary(page, study, calibration.slump);
+  add_warnings(page, run.warnings);
+  page.table(
+      parameter_table(combined_estimates(calibration), "Parameters, each from the fit that moved it."));
+
+  page.section("The chain");
+  page.table(round_table(calibration));
+  add_consistency(page, calibration);
+  add_oedometer_sections(page, study, calibration.oedometer);
+  add_slump_fit_sections(page, study, calibration.slump);
+  return page;
+}
+
+}  // namespace isotach::reports

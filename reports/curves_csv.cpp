@@ -1,0 +1,178 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Curves as columns.
+#include "reports/curves_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "reports/estimates.hpp"
+
+namespace isotach::reports {
+namespace {
+
+using Column = std::vector<double>;
+
+constexpr double kMillimetres = 1e3;  // in a metre
+
+/// Unique stems of file names for tests of these names.
+class FileStems {
+ public:
+  [[nodiscard]] std::string of(const std::string& test) {
+    std::string stem = test;
+    for (char& c : stem) {
+      const bool safe = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                        c == '-' || c == '_' || c == '.';
+      if (!safe) c = '_';
+    }
+    const std::string first = stem;
+    for (int number = 2; !used_.insert(stem).second; ++number) stem = fmt::format("{}_{}", first, number);
+    return stem;
+  }
+
+ private:
+  std::set<std::string> used_;
+};
+
+void write_convergence(OutputDirectory& output, const std::string& name,
+                       const calibration::FitResult& result) {
+  std::vector<std::string> routes;
+  Column evaluations;
+  Column costs;
+  std::vector<Column> parameters(result.free.size());
+  const auto add = [&](const calibration::OptimiserResult& route) {
+    for (const calibration::TracePoint& point : route.trace) {
+      routes.push_back(route.route);
+      evaluations.push_back(point.evaluation);
+      costs.push_back(point.cost);
+      for (std::size_t k = 0; k < result.free.size(); ++k) {
+        parameters[k].push_back(parameter_of_coordinate(result.free[k], point.coordinates[k]));
+      }
+    }
+  };
+  add(result.main);
+  if (result.check) add(*result.check);
+  std::vector<CsvColumn> columns{{"route", routes}, {"evaluation", evaluations}, {"cost", costs}};
+  for (std::size_t k = 0; k < result.free.size(); ++k) {
+    columns.push_back({std::string(model::info(result.free[k]).key), parameters[k]});
+  }
+  output.write_csv(name, columns);
+}
+
+void write_oedometer_test(OutputDirectory& output, const std::string& stem,
+                          const experiments::OedometerExperiment& test, const Column& scaled_residuals) {
+  Column time;
+  Column strain;
+  std::vector<std::string> stage;
+  Column measured;
+  Column fitted;
+  for (std::size_t i = 0; i < test.rows().size(); ++i) {
+    const datasets::OedometerRow& row = test.rows()[i];
+    time.push_back(row.time);
+    strain.push_back(row.axial_strain);
+    stage.emplace_back(datasets::name_of(row.stage));
+    measured.push_back(1e-3 * row.axial_stress);
+    fitted.push_back(measured.back() * std::exp(scaled_residuals[i] * test.noise()[i]));
+  }
+  const std::vector<CsvColumn> columns{{"time_s", time},
+                                       {"axial_strain", strain},
+                                       {"void_ratio", test.void_ratios()},
+                                       {"stage", stage},
+                                       {"measured_stress_kPa", measured},
+                                       {"fitted_stress_kPa", fitted},
+                                       {"residual_in_noise", scaled_residuals}};
+  output.write_csv(fmt::format("curves/oedometer/{}.csv", stem), columns);
+}
+
+/// Outlines in the format of a study's data.
+void write_outlines(OutputDirectory& output, const std::string& name,
+                    const std::vector<mpm::Outline>& outlines) {
+  Column time;
+  Column r;
+  Column z;
+  for (const mpm::Outline& outline : outlines) {
+    for (const mpm::OutlinePoint& point : outline.points) {
+      time.push_back(outline.time);
+      r.push_back(kMillimetres * point.r);
+      z.push_back(kMillimetres * point.z);
+    }
+  }
+  output.write_csv(name, std::vector<CsvColumn>{{"time_s", time}, {"r_mm", r}, {"z_mm", z}});
+}
+
+void write_distances(OutputDirectory& output, const std::string& name,
+                     const calibration::SlumpComparison& comparison) {
+  const experiments::SlumpExperiment& test = *comparison.experiment;
+  Column time;
+  Column r;
+  Column z;
+  Column distance;
+  Column gone;
+  for (const datasets::Outline& outline : test.test().outlines) {
+    for (const datasets::OutlinePoint& point : outline.points) {
+      const std::size_t i = distance.size();
+      time.push_back(outline.time);
+      r.push_back(kMillimetres * point.r);
+      z.push_back(kMillimetres * point.z);
+      distance.push_back(kMillimetres * comparison.distances[i]);
+      gone.push_back(test.mould_gone()[i] ? 1.0 : 0.0);
+    }
+  }
+  const std::vector<CsvColumn> columns{{"time_s", time},
+                                       {"r_mm", r},
+                                       {"z_mm", z},
+                                       {"distance_mm", distance},
+                                       {"distance_in_noise", test.scaled_residuals(comparison.distances)},
+                                       {"mould_gone", gone}};
+  output.write_csv(name, columns);
+}
+
+}  // namespace
+
+void write_curves(OutputDirectory& output, const calibration::OedometerFit& fit) {
+  FileStems stems;
+  for (std::size_t i = 0; i < fit.experiments.size(); ++i) {
+    write_oedometer_test(output, stems.of(fit.experiments[i]->name()), *fit.experiments[i],
+                         fit.evaluation.scaled_residuals[i]);
+  }
+  write_convergence(output, "curves/oedometer_convergence.csv", fit.result);
+}
+
+void write_curves(OutputDirectory& output, const calibration::SlumpFit& fit) {
+  FileStems stems;
+  for (const calibration::SlumpComparison& comparison : fit.comparisons) {
+    const std::string stem = stems.of(comparison.experiment->name());
+    write_outlines(output, fmt::format("curves/slump/{}_outlines.csv", stem), comparison.simulation.outlines);
+    write_distances(output, fmt::format("curves/slump/{}_distances.csv", stem), comparison);
+  }
+  write_convergence(output, "curves/slump_convergence.csv", fit.result);
+}
+
+void write_curves(OutputDirectory& output, const calibration::Calibration& calibration) {
+  write_curves(output, calibration.oedometer);
+  write_curves(output, calibration.slump);
+}
+
+void write_curves(OutputDirectory& output, const mpm::SlumpResult& result) {
+  write_outlines(output, "outlines.csv", result.outlines);
+  std::vector<CsvColumn> columns;
+  const auto add = [&](const char* header, double mpm::HistoryRow::*quantity, double factor) {
+    Column values;
+    for (const mpm::HistoryRow& row : result.history) values.push_back(factor * (row.*quantity));
+    columns.push_back({header, std::move(values)});
+  };
+  add("time_s", &mpm::HistoryRow::time, 1.0);
+  add("height_mm", &mpm::HistoryRow::height, kMillimetres);
+  add("toe_mm", &mpm::HistoryRow::toe, kMillimetres);
+  add("kinetic_J", &mpm::HistoryRow::kinetic, 1.0);
+  add("potential_J", &mpm::HistoryRow::potential, 1.0);
+  add("stress_work_J", &mpm::HistoryRow::stress_work, 1.0);
+  add("boundary_work_J", &mpm::HistoryRow::boundary_work, 1.0);
+  add("volume_mm3", &mpm::HistoryRow::volume, kMillimetres * kMillimetres * kMillimetres);
+  add("inertia_scaling", &mpm::HistoryRow::inertia_scaling, 1.0);
+  output.write_csv("history.csv", columns);
+}
+
+}  // namespace isotach::reports

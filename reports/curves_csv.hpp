@@ -1,0 +1,31 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Every curve that a report draws, as plain CSV.
+#pragma once
+
+#include "calibration/calibrate.hpp"
+#include "reports/output_directory.hpp"
+
+namespace isotach::reports {
+
+// Files are named after the tests; characters of a name that are not safe in file names become "_", and a
+// number follows where two names would become one.
+
+/// curves/oedometer/<test>.csv: time_s, axial_strain, void_ratio, stage, measured_stress_kPa,
+/// fitted_stress_kPa, residual_in_noise; curves/oedometer_convergence.csv: route, evaluation, cost and the
+/// coordinates' parameters.
+void write_curves(OutputDirectory& output, const calibration::OedometerFit& fit);
+
+/// For each test curves/slump/<test>_outlines.csv (simulated: time_s, r_mm, z_mm, as the data format) and
+/// curves/slump/<test>_distances.csv (measured points: time_s, r_mm, z_mm, distance_mm, positive where the
+/// simulated mud reaches beyond the measured surface, distance_in_noise, mould_gone: 1 from when the rim had
+/// left the mud); curves/slump_convergence.csv.
+void write_curves(OutputDirectory& output, const calibration::SlumpFit& fit);
+
+/// The curves of both fits.
+void write_curves(OutputDirectory& output, const calibration::Calibration& calibration);
+
+/// outlines.csv (as the data format) and history.csv: time_s, height_mm, toe_mm, kinetic_J, potential_J,
+/// stress_work_J, boundary_work_J, volume_mm3, inertia_scaling.
+void write_curves(OutputDirectory& output, const mpm::SlumpResult& result);
+
+}  // namespace isotach::reports

@@ -1,0 +1,293 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Verdicts, tables and figures of any fit.
+#include "reports/fit_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/estimates.hpp"
+#include "reports/number.hpp"
+
+namespace isotach::reports {
+namespace {
+
+using calibration::FitResult;
+using calibration::OptimiserResult;
+using calibration::ParameterEstimate;
+using calibration::TestSummary;
+using calibration::Verdict;
+
+std::string with_unit(const std::string& number, std::string_view unit) {
+  return unit == "-" ? number : fmt::format("{} {}", number, unit);
+}
+
+/// All routes of a fit, the one reported first.
+std::vector<const OptimiserResult*> routes_of(const FitResult& result) {
+  std::vector<const OptimiserResult*> routes{&result.main};
+  if (result.check) routes.push_back(&*result.check);
+  return routes;
+}
+
+/// f(point) of every improvement against the number of evaluations, as a staircase would be read.
+template <class F>
+Figure trace_figure(const FitResult& result, F&& f) {
+  Figure figure;
+  figure.x.label = "evaluations";
+  const auto routes = routes_of(result);
+  figure.x.logarithmic = routes.size() > 1;  // a route with derivatives needs tens, one without hundreds
+  for (std::size_t k = 0; k < routes.size(); ++k) {
+    Series series;
+    series.label = routes[k]->route;
+    series.style = SeriesStyle::line_points;
+    for (const calibration::TracePoint& point : routes[k]->trace) {
+      series.x.push_back(point.evaluation);
+      series.y.push_back(f(point));
+    }
+    figure.series.push_back(std::move(series));
+  }
+  return figure;
+}
+
+std::vector<std::string> texts_with(const FitResult& result, Verdict verdict) {
+  std::vector<std::string> texts;
+  for (const ParameterEstimate& estimate : result.estimates) {
+    if (estimate.verdict == verdict) texts.push_back(parameter_text(estimate));
+  }
+  return texts;
+}
+
+/// Tests of one kind and how far the worst of them is from the data.
+struct Group {
+  std::vector<std::string> names;
+  std::vector<std::string> missed;
+  double worst = 0.0;
+};
+
+Group group_of(const FitResult& result, bool held_out) {
+  Group group;
+  for (const TestSummary& test : result.tests) {
+    if (test.held_out != held_out) continue;
+    group.names.push_back(test.name);
+    group.worst = std::max(group.worst, test.rms_over_noise);
+    if (test.rms_over_noise > calibration::kAdequate) {
+      group.missed.push_back(fmt::format("{} ({})", test.name, format_number(test.rms_over_noise, 3)));
+    }
+  }
+  return group;
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 == parts.size() ? " and " : ", ";
+    text += parts[i];
+  }
+  return text;
+}
+
+std::string title_of(const TestSummary& test) {
+  return test.held_out ? test.name + " (held out)" : test.name;
+}
+
+std::string parameter_text(const ParameterEstimate& si) {
+  const ParameterEstimate estimate = in_key_unit(si);
+  const model::ParameterInfo& info = model::info(si.id);
+  return with_unit(fmt::format("{} = {}", info.name, format_with_error(estimate.value, estimate.std_error)),
+                   info.unit);
+}
+
+std::string interval_text(const ParameterEstimate& si) {
+  const ParameterEstimate estimate = in_key_unit(si);
+  const double width = estimate.ci95_upper - estimate.ci95_lower;
+  if (!std::isfinite(width)) return kMissing;
+  // two digits of the width, so that the ends differ
+  const double largest = std::max(std::abs(estimate.ci95_lower), std::abs(estimate.ci95_upper));
+  const int digits = width > 0.0 ? static_cast<int>(std::ceil(std::log10(largest / width))) + 2 : 4;
+  const int shown = std::clamp(digits, 2, 9);
+  return fmt::format("{} to {}", format_number(estimate.ci95_lower, shown),
+                     format_number(estimate.ci95_upper, shown));
+}
+
+void add_parameter_verdicts(Page& page, const FitResult& result) {
+  if (const auto texts = texts_with(result, Verdict::identified); !texts.empty()) {
+    page.verdict(Tone::good, fmt::format("The data determine {}.", listed(texts)));
+  }
+  if (const auto texts = texts_with(result, Verdict::weak); !texts.empty()) {
+    page.verdict(Tone::warning, fmt::format("Only weakly determined: {}.", listed(texts)));
+  }
+  std::vector<std::string> undetermined;
+  for (const ParameterEstimate& si : result.estimates) {
+    if (si.verdict != Verdict::undetermined) continue;
+    undetermined.push_back(fmt::format("{} (95 % interval {})", parameter_text(si), interval_text(si)));
+  }
+  if (!undetermined.empty()) {
+    page.verdict(Tone::warning, fmt::format("These data do not determine {}: other values would do as well.",
+                                            listed(undetermined)));
+  }
+}
+
+void add_adequacy_verdict(Page& page, const FitResult& result, std::string_view tests) {
+  const Group group = group_of(result, false);
+  if (result.adequate) {
+    page.verdict(Tone::good,
+                 fmt::format("The model is adequate for the fitted {}: none is missed by more than {} "
+                             "times its noise (root mean square; {} is the limit, 1 as good as the "
+                             "noise allows).",
+                             tests, format_number(group.worst, 3), format_number(calibration::kAdequate, 2)));
+    return;
+  }
+  page.verdict(Tone::bad,
+               fmt::format("The model is not adequate for the fitted {}: beyond the limit of {} times "
+                           "the noise (root mean square) are {}.",
+                           tests, format_number(calibration::kAdequate, 2), listed(group.missed)));
+}
+
+void add_held_out_verdict(Page& page, const FitResult& result) {
+  const Group group = group_of(result, true);
+  if (group.names.empty()) return;
+  const std::string who = fmt::format("{}, held out from the fit, {}", listed(group.names),
+                                      group.names.size() == 1 ? "is" : "are");
+  if (group.missed.empty()) {
+    page.verdict(Tone::good, fmt::format("{} predicted to within {} times the noise.", who,
+                                         format_number(group.worst, 3)));
+  } else {
+    page.verdict(Tone::warning,
+                 fmt::format("{} predicted less well than the noise allows: {} times the noise.", who,
+                             listed(group.missed)));
+  }
+}
+
+void add_warnings(Page& page, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) page.verdict(Tone::warning, warning + ".");
+}
+
+Table parameter_table(const std::vector<ParameterEstimate>& estimates, std::string caption) {
+  using enum Alignment;
+  Table table{
+      .caption = std::move(caption),
+      .header = {"Parameter", "Value ± standard error", "95 % interval", "Unit", "Verdict", "Meaning"},
+      .alignment = {left, right, right, left, left, left}};
+  for (const ParameterEstimate& si : estimates) {
+    const ParameterEstimate estimate = in_key_unit(si);
+    const model::ParameterInfo& info = model::info(si.id);
+    table.rows.push_back({std::string(info.name), format_with_error(estimate.value, estimate.std_error),
+                          interval_text(si), std::string(info.unit == "-" ? kMissing : info.unit),
+                          std::string(calibration::name_of(estimate.verdict)), std::string(info.meaning)});
+  }
+  table.notes = {
+      "Identified: half the 95 % interval is at most 25 % of the value; weak: at most all of it, or the "
+      "value lies "
+      "on its bound; undetermined: more. C_1, which may be zero, is compared with 40 % of the range it can "
+      "have. "
+      "Fixed: not fitted."};
+  return table;
+}
+
+Table correlation_table(const FitResult& result) {
+  Table table{
+      .caption = "Correlation of the fitted coordinates.", .header = {""}, .alignment = {Alignment::left}};
+  if (result.free.size() < 2) return table;
+  for (std::size_t i = 0; i < result.free.size(); ++i) {
+    table.header.push_back(coordinate_name(result.free[i]));
+    table.alignment.push_back(Alignment::right);
+    std::vector<std::string> row{coordinate_name(result.free[i])};
+    for (std::size_t j = 0; j < result.free.size(); ++j) {
+      const double value = result.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      row.push_back(j > i ? "" : format_number(std::round(100.0 * value) / 100.0, 2));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::vector<std::string> null_direction_sentences(const FitResult& result) {
+  std::vector<std::string> sentences;
+  for (const Eigen::VectorXd& direction : result.uncertainty.null_directions) {
+    constexpr double kNoPart = 1e-3;
+    std::vector<std::string> parts;
+    for (std::size_t k = 0; k < result.free.size(); ++k) {
+      const double part = direction[static_cast<Eigen::Index>(k)];
+      if (std::abs(part) < kNoPart) continue;
+      parts.push_back(fmt::format("{} by {}", coordinate_name(result.free[k]), format_number(part, 3)));
+    }
+    sentences.push_back("The data do not see the following move: " + listed(parts) + ".");
+  }
+  return sentences;
+}
+
+Figure cost_figure(const FitResult& result) {
+  Figure figure = trace_figure(result, [](const calibration::TracePoint& point) { return point.cost; });
+  figure.y.label = "cost (half the sum of squares in units of noise)";
+  figure.y.logarithmic = true;
+  figure.caption = "Convergence: least cost so far against the number of evaluations.";
+  return figure;
+}
+
+Figure parameter_figure(const FitResult& result, std::size_t free_index) {
+  const model::ParameterInfo& info = model::info(result.free.at(free_index));
+  Figure figure = trace_figure(result, [&](const calibration::TracePoint& point) {
+    return parameter_of_coordinate(info.id, point.coordinates[free_index]);
+  });
+  figure.y.label = info.unit == "-" ? std::string(info.name) : fmt::format("{} ({})", info.name, info.unit);
+  figure.caption = fmt::format("{} at the least cost so far.", info.name);
+  return figure;
+}
+
+Table route_table(const FitResult& result) {
+  Table table{.caption = "How the answer was reached.", .header = {"", "", ""}};
+  const auto routes = routes_of(result);
+  table.header = {""};
+  table.alignment = {Alignment::left};
+  for (const OptimiserResult* route : routes) {
+    table.header.push_back(route->route);
+    table.alignment.push_back(Alignment::right);
+  }
+  const auto row = [&](std::string name, auto&& text) {
+    std::vector<std::string> cells{std::move(name)};
+    for (const OptimiserResult* route : routes) cells.push_back(text(*route));
+    table.rows.push_back(std::move(cells));
+  };
+  constexpr int kDigits = 7;  // enough to see where routes part
+  for (std::size_t k = 0; k < result.free.size(); ++k) {
+    const model::ParameterInfo& info = model::info(result.free[k]);
+    row(info.unit == "-" ? std::string(info.name) : fmt::format("{} ({})", info.name, info.unit),
+        [&](const OptimiserResult& route) {
+          return format_number(parameter_of_coordinate(info.id, route.coordinates[k]), kDigits);
+        });
+  }
+  row("cost", [](const OptimiserResult& route) { return format_number(route.cost, kDigits); });
+  row("evaluations", [](const OptimiserResult& route) { return fmt::format("{}", route.evaluations); });
+  row("of them failed",
+      [](const OptimiserResult& route) { return fmt::format("{}", route.failed_evaluations); });
+  row("converged", [](const OptimiserResult& route) { return std::string(route.converged ? "yes" : "no"); });
+  for (const OptimiserResult* route : routes) {
+    table.notes.push_back(fmt::format("{} ended with: {}", route->route, route->termination));
+  }
+  if (result.check) {
+    table.notes.push_back(
+        fmt::format("The routes share the predictions, but not the search: they start at the same "
+                    "point and end {} standard errors apart.",
+                    format_number(result.disagreement, 2)));
+  }
+  return table;
+}
+
+std::vector<std::string> assumptions_on(const std::vector<std::string>& all, std::string_view subject) {
+  std::vector<std::string> chosen;
+  for (const std::string& text : all) {
+    if (text.starts_with(subject)) chosen.push_back(text);
+  }
+  return chosen;
+}
+
+std::string bulleted(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "• " : "\n• ") + line;
+  return text;
+}
+
+}  // namespace isotach::reports

@@ -1,0 +1,56 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// What the reports of all fits share: verdicts in words, tables of parameters and tests, convergence.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibration/fit_result.hpp"
+#include "reports/page.hpp"
+#include "reports/run_info.hpp"
+
+namespace isotach::reports {
+
+/// The parameter's name, value and standard error with its unit: "D_r (6.80 ± 0.12)×10⁻⁷ 1/s".
+[[nodiscard]] std::string parameter_text(const calibration::ParameterEstimate& estimate);
+
+/// The 95 % interval in the unit of the parameter's key, "1.4136 to 1.4144"; kMissing where there is none.
+[[nodiscard]] std::string interval_text(const calibration::ParameterEstimate& estimate);
+
+/// Verdicts: one sentence each on those parameters that are well, weakly or not determined.
+void add_parameter_verdicts(Page& page, const calibration::FitResult& result);
+/// Verdict: whether every fitted test is met to within its noise. `tests` says which: "oedometer tests".
+void add_adequacy_verdict(Page& page, const calibration::FitResult& result, std::string_view tests);
+/// Verdict on the tests held out, if there are any.
+void add_held_out_verdict(Page& page, const calibration::FitResult& result);
+/// One warning each for what the fit had to say.
+void add_warnings(Page& page, const std::vector<std::string>& warnings);
+
+/// Value, error, interval, unit, verdict and meaning of every parameter.
+[[nodiscard]] Table parameter_table(const std::vector<calibration::ParameterEstimate>& estimates,
+                                    std::string caption);
+/// The table of correlations; without rows where fewer than two parameters are free.
+[[nodiscard]] Table correlation_table(const calibration::FitResult& result);
+/// Null directions, if any, in words.
+[[nodiscard]] std::vector<std::string> null_direction_sentences(const calibration::FitResult& result);
+/// Best cost against evaluation, one line for each route.
+[[nodiscard]] Figure cost_figure(const calibration::FitResult& result);
+/// Best value of one free parameter against evaluation, one line for each route.
+[[nodiscard]] Figure parameter_figure(const calibration::FitResult& result, std::size_t free_index);
+/// How the routes ended and what they found.
+[[nodiscard]] Table route_table(const calibration::FitResult& result);
+
+/// Of a study's assumptions those on `subject`, with which they begin: "oedometer test".
+[[nodiscard]] std::vector<std::string> assumptions_on(const std::vector<std::string>& all,
+                                                      std::string_view subject);
+/// The lines as one box, each with a bullet.
+[[nodiscard]] std::string bulleted(const std::vector<std::string>& lines);
+
+/// "crs-3 (held out)" or "crs-1".
+[[nodiscard]] std::string title_of(const calibration::TestSummary& test);
+
+/// Parts of a sentence as a list: "a, b and c".
+[[nodiscard]] std::string listed(const std::vector<std::string>& parts);
+
+}  // namespace isotach::reports

@@ -1,0 +1,260 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Filling of the page template.
+#include "reports/page.hpp"
+
+#include <fmt/format.h>
+
+#include <kainjow/mustache.hpp>
+#include <stdexcept>
+
+#include "reports/page_template.hpp"
+
+namespace isotach::reports {
+namespace {
+
+namespace mustache = kainjow::mustache;
+using mustache::data;
+
+constexpr std::size_t kSectionsWithoutContents = 3;
+constexpr std::size_t kShortTable = 15;  // rows that printing keeps on one page
+
+/// The class that the template's style sheet colours.
+std::string class_of(Tone tone) {
+  switch (tone) {
+    case Tone::plain:
+      return "plain";
+    case Tone::good:
+      return "good";
+    case Tone::warning:
+      return "warning";
+    case Tone::bad:
+      return "bad";
+  }
+  return {};
+}
+
+/// The sign that says the tone without colour.
+std::string sign_of(Tone tone) {
+  switch (tone) {
+    case Tone::plain:
+      return "•";
+    case Tone::good:
+      return "✓";
+    case Tone::warning:
+      return "!";
+    case Tone::bad:
+      return "✕";
+  }
+  return {};
+}
+
+std::string class_of(Alignment alignment) {
+  switch (alignment) {
+    case Alignment::left:
+      return "left";
+    case Alignment::centre:
+      return "centre";
+    case Alignment::right:
+      return "right";
+  }
+  return {};
+}
+
+/// A list with one {{text}} per item.
+data list_of(const std::vector<std::string>& texts) {
+  data list{data::type::list};
+  for (const std::string& text : texts) list.push_back(data{"text", text});
+  return list;
+}
+
+/// A value for a mustache section that vanishes where the text is empty.
+data unless_empty(const std::string& text) {
+  return text.empty() ? data{false} : data{text};
+}
+
+/// Cells with their column's alignment.
+data cells_of(const std::vector<std::string>& texts, const std::vector<Alignment>& alignment) {
+  data cells{data::type::list};
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    data cell;
+    cell.set("text", texts[i]);
+    cell.set("class", class_of(i < alignment.size() ? alignment[i] : Alignment::left));
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+}  // namespace
+
+/// Turns blocks into what the template expects, numbering tables and figures on the way.
+struct Page::Renderer {
+  const std::vector<Figure>& figures;
+  std::vector<std::string> svgs;
+  int tables = 0;
+
+  data operator()(const Paragraph& block) const {
+    data content;
+    content.set("text", block.text);
+    return wrapped("paragraph", content);
+  }
+
+  data operator()(const Table& table) {
+    data content;
+    content.set("caption", unless_empty(table.caption));
+    content.set("number", table.caption.empty() ? std::string() : fmt::format("{}", ++tables));
+    content.set("header", cells_of(table.header, table.alignment));
+    data rows{data::type::list};
+    for (const std::vector<std::string>& row : table.rows) {
+      rows.push_back(data{"cells", cells_of(row, table.alignment)});
+    }
+    content.set("rows", rows);
+    content.set("notes", list_of(table.notes));
+    content.set("short", data{table.rows.size() <= kShortTable});
+    return wrapped("table", content);
+  }
+
+  data operator()(const FigureRow& row) const {
+    data items{data::type::list};
+    for (std::size_t i = row.first; i < row.first + row.count; ++i) {
+      data item;
+      item.set("number", fmt::format("{}", i + 1));
+      item.set("svg", svgs[i]);
+      item.set("caption", figures[i].caption);
+      items.push_back(item);
+    }
+    data content;
+    content.set("class", std::string(row.count > 1 ? "pair" : "single"));
+    content.set("items", items);
+    return wrapped("figures", content);
+  }
+
+  data operator()(const Box& box) const {
+    data content;
+    content.set("class", class_of(box.tone));
+    content.set("sign", sign_of(box.tone));
+    content.set("text", box.text);
+    return wrapped("box", content);
+  }
+
+  data operator()(const Preformatted& block) const {
+    data content;
+    content.set("text", block.text);
+    return wrapped("preformatted", content);
+  }
+
+  /// The block under the name of its kind, the other kinds being absent.
+  static data wrapped(const char* kind, const data& content) {
+    data block;
+    for (const char* name : {"paragraph", "table", "figures", "box", "preformatted"})
+      block.set(name, data{false});
+    block.set(kind, content);
+    return block;
+  }
+
+  data blocks_of(const Section& section) {
+    data blocks{data::type::list};
+    for (const Block& block : section.blocks) blocks.push_back(std::visit(*this, block));
+    return blocks;
+  }
+};
+
+Page::Page(std::string title, std::string subtitle)
+    : title_(std::move(title)), subtitle_(std::move(subtitle)), sections_(1) {}
+
+void Page::fact(std::string name, std::string value) {
+  facts_.emplace_back(std::move(name), std::move(value));
+}
+
+void Page::verdict(Tone tone, std::string sentence) {
+  verdicts_.emplace_back(tone, std::move(sentence));
+}
+
+void Page::section(std::string heading) {
+  sections_.push_back({std::move(heading), {}});
+}
+
+void Page::paragraph(std::string text) {
+  add(Paragraph{std::move(text)});
+}
+
+void Page::table(Table table) {
+  for (const std::vector<std::string>& row : table.rows) {
+    if (row.size() != table.header.size()) {
+      throw std::invalid_argument(fmt::format("table '{}': a row has {} cells, the header {}", table.caption,
+                                              row.size(), table.header.size()));
+    }
+  }
+  if (table.alignment.size() > table.header.size()) {
+    throw std::invalid_argument(fmt::format("table '{}': more alignments than columns", table.caption));
+  }
+  add(std::move(table));
+}
+
+void Page::figure(Figure figure) {
+  figures_.push_back(std::move(figure));
+  add(FigureRow{figures_.size() - 1, 1});
+}
+
+void Page::figures(Figure left, Figure right) {
+  left.width = right.width = FigureWidth::half;
+  figures_.push_back(std::move(left));
+  figures_.push_back(std::move(right));
+  add(FigureRow{figures_.size() - 2, 2});
+}
+
+void Page::box(Tone tone, std::string text) {
+  add(Box{tone, std::move(text)});
+}
+
+void Page::preformatted(std::string text) {
+  add(Preformatted{std::move(text)});
+}
+
+std::string Page::html() const {
+  Renderer renderer{figures_, render_svgs(figures_)};
+  data page;
+  page.set("title", title_);
+  page.set("subtitle", unless_empty(subtitle_));
+  data verdicts{data::type::list};
+  for (const auto& [tone, sentence] : verdicts_) {
+    data verdict;
+    verdict.set("class", class_of(tone));
+    verdict.set("sign", sign_of(tone));
+    verdict.set("text", sentence);
+    verdicts.push_back(verdict);
+  }
+  page.set("verdicts", verdicts);
+  page.set("has_verdicts", data{!verdicts_.empty()});
+  data facts{data::type::list};
+  for (const auto& [name, value] : facts_) {
+    data fact;
+    fact.set("name", name);
+    fact.set("value", value);
+    facts.push_back(fact);
+  }
+  page.set("facts", facts);
+  page.set("has_facts", data{!facts_.empty()});
+  page.set("summary_blocks", renderer.blocks_of(sections_.front()));
+  data sections{data::type::list};
+  for (std::size_t i = 1; i < sections_.size(); ++i) {
+    data section;
+    section.set("anchor", fmt::format("section-{}", i));
+    section.set("heading", sections_[i].heading);
+    section.set("blocks", renderer.blocks_of(sections_[i]));
+    sections.push_back(section);
+  }
+  page.set("sections", sections);
+  const std::size_t count = sections_.size() - 1;
+  page.set("has_sections", data{count > 0});
+  page.set("has_contents", data{count > kSectionsWithoutContents});
+
+  mustache::mustache html{kPageTemplate};
+  mustache::mustache blocks{kBlocksTemplate};
+  if (!html.is_valid() || !blocks.is_valid()) {
+    throw std::logic_error("report template: " + html.error_message() + blocks.error_message());
+  }
+  page.set("block_list", data{mustache::partial{[] { return std::string(kBlocksTemplate); }}});
+  return html.render(page);
+}
+
+}  // namespace isotach::reports

@@ -1,0 +1,103 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Writing of [material] so that the same doubles are read back.
+#include "reports/parameters_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <vector>
+
+#include "reports/estimates.hpp"
+
+namespace isotach::reports {
+namespace {
+
+using calibration::ParameterEstimate;
+using calibration::Verdict;
+
+/// The shortest decimal that a reader of the key turns into exactly this SI value. Where a change of unit
+/// leaves none, the nearest there is.
+std::string exact_decimal(const model::ParameterInfo& info, double si) {
+  const double value = si / info.to_si;
+  std::string text;
+  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    text = fmt::format("{:.{}g}", value, digits);
+    double read = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), read);
+    if (info.to_si * read == si) break;
+  }
+  // TOML tells floats from integers by the point or the exponent
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+/// Where a value came from; `fitted_by` names the fit.
+std::string origin(const ParameterEstimate& si, std::string_view fitted_by) {
+  const ParameterEstimate estimate = in_key_unit(si);
+  switch (estimate.verdict) {
+    case Verdict::fixed:
+      return "not fitted: as the study gives it";
+    case Verdict::gauge:
+      return fmt::format("{}, set by the gauge, +- {:.2g}", fitted_by, estimate.std_error);
+    case Verdict::identified:
+    case Verdict::weak:
+      return fmt::format("{}, +- {:.2g} ({})", fitted_by, estimate.std_error,
+                         calibration::name_of(estimate.verdict));
+    case Verdict::undetermined:
+      return fmt::format("{}, but the data do not determine it", fitted_by);
+  }
+  return {};
+}
+
+struct Origin {
+  ParameterEstimate estimate;
+  std::string_view fitted_by;
+};
+
+std::string render(const RunInfo& run, const std::vector<Origin>& origins, model::LodeDependence lode,
+                   const std::vector<std::string>& notes) {
+  std::string text =
+      fmt::format("# Written by isotach {} {} from {}.\n", run.command, run.version, input_name(run.input));
+  text += "# Usable as the [material] of a study or a test; +- is one standard error.\n";
+  for (const std::string& note : notes) text += fmt::format("# {}\n", note);
+  text += "\n[material]\n";
+  for (const auto& [estimate, fitted_by] : origins) {
+    const model::ParameterInfo& info = model::info(estimate.id);
+    text += fmt::format("{} = {}  # {}; {}\n", info.key, exact_decimal(info, estimate.value), info.meaning,
+                        origin(estimate, fitted_by));
+  }
+  if (lode == model::LodeDependence::none) text += "lode_dependence = \"none\"\n";
+  return text;
+}
+
+constexpr std::string_view kByOedometer = "fitted to the oedometer tests";
+constexpr std::string_view kBySlump = "fitted to the slump tests";
+
+std::vector<Origin> all_by(const calibration::FitResult& result, std::string_view fitted_by) {
+  std::vector<Origin> origins;
+  for (const ParameterEstimate& estimate : result.estimates) origins.push_back({estimate, fitted_by});
+  return origins;
+}
+
+}  // namespace
+
+std::string parameters_toml(const RunInfo& run, const calibration::OedometerFit& fit) {
+  return render(run, all_by(fit.result, kByOedometer), fit.result.parameters->lode(),
+                {gauge_sentence(fit.result)});
+}
+
+std::string parameters_toml(const RunInfo& run, const calibration::SlumpFit& fit) {
+  return render(run, all_by(fit.result, kBySlump), fit.result.parameters->lode(), {});
+}
+
+std::string parameters_toml(const RunInfo& run, const calibration::Calibration& calibration) {
+  std::vector<Origin> origins;
+  for (const ParameterEstimate& estimate : combined_estimates(calibration)) {
+    origins.push_back({estimate, is_free(calibration.slump.result, estimate.id) ? kBySlump : kByOedometer});
+  }
+  return render(run, origins, calibration.slump.result.parameters->lode(),
+                {gauge_sentence(calibration.oedometer.result)});
+}
+
+}  // namespace isotach::reports

@@ -1,0 +1,19 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// parameters.toml: the answer of a fit as the next study's [material].
+#pragma once
+
+#include <string>
+
+#include "calibration/calibrate.hpp"
+#include "reports/run_info.hpp"
+
+namespace isotach::reports {
+
+/// A [material] table with every parameter under its key and in its key's unit, and a comment on each that
+/// says where it came from. Read back it gives the same doubles: each number is the shortest decimal that
+/// does so.
+[[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::OedometerFit& fit);
+[[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::SlumpFit& fit);
+[[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::Calibration& calibration);
+
+}  // namespace isotach::reports

@@ -1,0 +1,182 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Outlines measured and simulated, and tables of a slump fit.
+#include "reports/slump_fit_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/estimates.hpp"
+#include "reports/fit_sections.hpp"
+#include "reports/number.hpp"
+#include "reports/slump_tables.hpp"
+
+namespace isotach::reports {
+namespace {
+
+using calibration::SlumpComparison;
+using calibration::SlumpFit;
+using model::ParameterId;
+
+constexpr std::size_t kTimesShown = 4;
+constexpr double kMillimetres = 1e3;  // in a metre
+
+std::string millimetres(double metres, int digits = 3) {
+  return format_number(kMillimetres * metres, digits);
+}
+
+std::vector<NamedRun> runs_of(const SlumpFit& fit) {
+  std::vector<NamedRun> runs;
+  for (const SlumpComparison& comparison : fit.comparisons) {
+    runs.push_back(
+        {comparison.experiment->name(), &comparison.experiment->test().setup, &comparison.simulation});
+  }
+  return runs;
+}
+
+Figure outline_figure(const calibration::TestSummary& summary, const SlumpComparison& comparison) {
+  Figure figure = meridian_figure();
+  figure.title = title_of(summary);
+  figure.caption = fmt::format(
+      "{}: outlines measured (dots) and simulated (lines); root mean square distance {} mm, "
+      "from when the rim had left the mud {} mm.",
+      title_of(summary), millimetres(comparison.rms), millimetres(comparison.rms_mould_gone));
+  const std::vector<datasets::Outline>& outlines = comparison.experiment->test().outlines;
+  std::size_t colour = 0;
+  for (const std::size_t k : spread_indices(outlines.size(), kTimesShown)) {
+    Series measured{.style = SeriesStyle::dots, .colour = palette_colour(colour), .in_legend = false};
+    for (const datasets::OutlinePoint& point : outlines[k].points) {
+      measured.x.push_back(kMillimetres * point.r);
+      measured.y.push_back(kMillimetres * point.z);
+    }
+    Series simulated = outline_series(comparison.simulation.outlines[k], time_label(outlines[k].time));
+    simulated.colour = palette_colour(colour++);
+    figure.series.push_back(std::move(measured));
+    figure.series.push_back(std::move(simulated));
+  }
+  return figure;
+}
+
+void add_outlines(Page& page, const SlumpFit& fit) {
+  page.section("Slump: outlines measured and simulated");
+  page.paragraph(
+      "The distance of a measured point is the shortest one to the simulated outline of the same time, "
+      "positive where the simulated mud reaches beyond the measured surface.");
+  std::vector<Figure> figures;
+  for (std::size_t i = 0; i < fit.comparisons.size(); ++i) {
+    figures.push_back(outline_figure(fit.result.tests[i], fit.comparisons[i]));
+  }
+  std::size_t i = 0;
+  for (; i + 1 < figures.size(); i += 2) page.figures(std::move(figures[i]), std::move(figures[i + 1]));
+  if (i < figures.size()) page.figure(std::move(figures[i]));
+}
+
+Table test_table(const datasets::Study& study, const SlumpFit& fit) {
+  using enum Alignment;
+  Table table{.caption = "Slump tests: root mean square distance between outlines.",
+              .header = {"Test", "Data", "Use", "Points", "All times (mm)", "Rim gone (mm)",
+                         "Mean, rim gone (mm)", "rms / noise"},
+              .alignment = {left, left, left, right, right, right, right, right}};
+  for (std::size_t i = 0; i < fit.comparisons.size(); ++i) {
+    const SlumpComparison& comparison = fit.comparisons[i];
+    const calibration::TestSummary& summary = fit.result.tests[i];
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < comparison.distances.size(); ++k) {
+      if (!comparison.experiment->mould_gone()[k]) continue;
+      sum += comparison.distances[k];
+      ++count;
+    }
+    table.rows.push_back({summary.name, data_name(comparison.experiment->test().data, study.file),
+                          summary.held_out ? "held out" : "fitted", fmt::format("{}", summary.values),
+                          millimetres(comparison.rms), millimetres(comparison.rms_mould_gone),
+                          count == 0 ? kMissing : millimetres(sum / static_cast<double>(count), 2),
+                          format_number(summary.rms_over_noise, 3)});
+  }
+  table.notes = {
+      fmt::format("All tests together, from when the rim had left the mud: {} mm. The mean is positive "
+                  "where the simulated mud reaches too far.",
+                  millimetres(fit.rms_mould_gone))};
+  return table;
+}
+
+/// By what factor the strength at a given rate of flow differs between two values of C_1.
+double strength_ratio(double I_v, double C_1, double other_C_1) {
+  return std::pow((1.0 - other_C_1) / (1.0 - C_1), I_v);
+}
+
+/// Why a slump says little on C_1, with this fit's numbers.
+std::string C_1_sentence(const SlumpFit& fit) {
+  const calibration::ParameterEstimate& C_1 = estimate_of(fit.result, ParameterId::C_1);
+  const double change = 1.0 - strength_ratio(fit.result.parameters->I_v(), C_1.ci95_lower, C_1.ci95_upper);
+  return fmt::format(
+      "In undrained flow at the critical state C_1 enters only as a factor (1 − C_1) on the rate, so "
+      "strength at a "
+      "given rate goes with (1 − C_1)^I_v: over the whole 95 % interval of C_1, {} to {}, it changes by {} "
+      "%. An "
+      "outline can hardly see that, however well it is measured.",
+      format_number(C_1.ci95_lower, 3), format_number(C_1.ci95_upper, 3), format_number(100.0 * change, 2));
+}
+
+}  // namespace
+
+void add_slump_fit_summary(Page& page, const datasets::Study& study, const SlumpFit& fit) {
+  const calibration::FitResult& result = fit.result;
+  add_adequacy_verdict(page, result, "slump tests");
+  add_held_out_verdict(page, result);
+  add_parameter_verdicts(page, result);
+  if (is_free(result, ParameterId::C_1)) page.verdict(Tone::plain, C_1_sentence(fit));
+  add_warnings(page, result.warnings);
+  const double cell_size = fit.comparisons.empty() ? 0.0 : fit.comparisons.front().simulation.cell_size;
+  page.fact("Distance between outlines",
+            fmt::format("{} mm (root mean square, all tests, held out ones included, "
+                        "from when the rim had left the mud)",
+                        millimetres(fit.rms_mould_gone)));
+  page.fact("Slump data", fmt::format("{} tests ({})", fit.comparisons.size(), input_name(study.file)));
+  page.fact("Simulations", fmt::format("{} by the material point method, cells of {} mm", fit.simulations,
+                                       millimetres(cell_size)));
+}
+
+void add_slump_fit_sections(Page& page, const datasets::Study& study, const SlumpFit& fit) {
+  const calibration::FitResult& result = fit.result;
+  add_outlines(page, fit);
+  page.table(test_table(study, fit));
+
+  page.section("Slump: uncertainty and convergence");
+  if (Table correlation = correlation_table(result); !correlation.rows.empty())
+    page.table(std::move(correlation));
+  page.paragraph(fmt::format(
+      "Standard errors come from central differences between simulations at the answer and the noise that "
+      "the study "
+      "states, times {} for misfit beyond that noise and for errors that neighbouring points share "
+      "(correlation {} "
+      "from point to point).",
+      format_number(result.uncertainty.inflation, 3), format_number(result.uncertainty.autocorrelation, 2)));
+  for (const std::string& sentence : null_direction_sentences(result)) page.box(Tone::warning, sentence);
+  std::vector<Figure> figures{cost_figure(result)};
+  for (std::size_t k = 0; k < result.free.size(); ++k) figures.push_back(parameter_figure(result, k));
+  std::size_t i = figures.size() % 2;
+  if (i == 1) page.figure(std::move(figures.front()));
+  for (; i + 1 < figures.size(); i += 2) page.figures(std::move(figures[i]), std::move(figures[i + 1]));
+  page.table(route_table(result));
+
+  page.section("Slump: simulations");
+  const std::vector<NamedRun> runs = runs_of(fit);
+  if (!runs.empty()) page.paragraph(numerics_text(runs.front()));
+  page.table(start_table(runs));
+  page.table(budget_table(runs));
+  const auto assumptions = assumptions_on(study.assumptions, "slump test");
+  if (!assumptions.empty()) page.box(Tone::plain, "Taken for granted:\n" + bulleted(assumptions));
+}
+
+Page slump_fit_report(const RunInfo& run, const datasets::Study& study, const SlumpFit& fit) {
+  Page page("Slump fit", subtitle(run));
+  add_slump_fit_summary(page, study, fit);
+  add_warnings(page, run.warnings);
+  page.table(parameter_table(fit.result.estimates, "Parameters."));
+  add_slump_fit_sections(page, study, fit);
+  return page;
+}
+
+}  // namespace isotach::reports

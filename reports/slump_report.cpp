@@ -1,0 +1,205 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Outlines, histories and budgets of one simulated slump.
+#include "reports/slump_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/estimates.hpp"
+#include "reports/fit_sections.hpp"
+#include "reports/number.hpp"
+#include "reports/slump_tables.hpp"
+
+namespace isotach::reports {
+namespace {
+
+using mpm::HistoryRow;
+using mpm::SlumpResult;
+
+constexpr double kMillimetres = 1e3;        // in a metre
+constexpr double kVolumeErrorLimit = 0.01;  // beyond these a run is not to be trusted without a word
+constexpr double kEnergyErrorLimit = 0.02;
+constexpr std::size_t kTimesShown = 7;  // as many as the palette has colours
+
+constexpr double kHistoryShape = 0.9;  // height to width
+
+double total_energy(const HistoryRow& row) {
+  return row.kinetic + row.potential + row.stress_work + row.boundary_work;
+}
+
+/// quantity(row) over time, from the first row on that a logarithmic axis can show.
+template <class F>
+Series history_series(const SlumpResult& result, std::string label, F&& quantity) {
+  Series series;
+  series.label = std::move(label);
+  for (const HistoryRow& row : result.history) {
+    if (!(row.time > 0.0)) continue;
+    series.x.push_back(row.time);
+    series.y.push_back(quantity(row));
+  }
+  return series;
+}
+
+Figure outlines_figure(const datasets::SlumpFile& test, const SlumpResult& result) {
+  Figure figure = meridian_figure();
+  figure.caption = "Outlines through time; the mould before it was raised, dotted.";
+  const mpm::Mould& mould = test.setup.mould;
+  const double radius = 0.5 * kMillimetres * mould.diameter;
+  const double height = kMillimetres * mould.fill_height;
+  figure.series.push_back({.label = "0 s",
+                           .style = SeriesStyle::dotted,
+                           .x = {radius, radius, 0.0},
+                           .y = {0.0, height, height},
+                           .colour = Rgb{90, 101, 112}});
+  std::size_t colour = 0;
+  for (const std::size_t k : spread_indices(result.outlines.size(), kTimesShown)) {
+    Series outline = outline_series(result.outlines[k], time_label(test.setup.times[k]));
+    outline.colour = palette_colour(colour++);
+    figure.series.push_back(std::move(outline));
+  }
+  return figure;
+}
+
+Figure extent_figure(const SlumpResult& result) {
+  Figure figure;
+  figure.caption = "Height (highest point of the outline) and toe (largest radius) over time.";
+  figure.x = {.label = "time (s)", .logarithmic = true};
+  figure.y = {.label = "height, toe (mm)", .min = 0.0};
+  figure.height_to_width = kHistoryShape;
+  figure.series = {
+      history_series(result, "height", [](const HistoryRow& row) { return kMillimetres * row.height; }),
+      history_series(result, "toe", [](const HistoryRow& row) { return kMillimetres * row.toe; })};
+  return figure;
+}
+
+Figure energy_figure(const SlumpResult& result) {
+  Figure figure;
+  figure.caption =
+      "Energies over time. The potential energy that the mud gives up becomes work done on it (what the "
+      "flow dissipates) and on mould and base; the sum should not change.";
+  figure.x = {.label = "time (s)", .logarithmic = true};
+  figure.y = {.label = "energy (J)"};
+  figure.height_to_width = kHistoryShape;
+  figure.series = {
+      history_series(result, "potential", [](const HistoryRow& row) { return row.potential; }),
+      history_series(result, "stress work", [](const HistoryRow& row) { return row.stress_work; }),
+      history_series(result, "boundary work", [](const HistoryRow& row) { return row.boundary_work; }),
+      history_series(result, "kinetic", [](const HistoryRow& row) { return row.kinetic; }),
+      history_series(result, "sum", total_energy)};
+  figure.series.back().style = SeriesStyle::dashed;
+  figure.series.back().colour = Rgb{0, 0, 0};
+  return figure;
+}
+
+/// The row of the history nearest in time.
+const HistoryRow& row_at(const SlumpResult& result, double time) {
+  return *std::min_element(result.history.begin(), result.history.end(),
+                           [time](const HistoryRow& a, const HistoryRow& b) {
+                             return std::abs(a.time - time) < std::abs(b.time - time);
+                           });
+}
+
+Table output_table(const datasets::SlumpFile& test, const SlumpResult& result) {
+  using enum Alignment;
+  Table table{.caption = "Results at the times asked for.",
+              .header = {"Time (s)", "Height (mm)", "Toe (mm)", "Volume change (%)", "Kinetic (J)",
+                         "Potential (J)", "Stress work (J)", "Boundary work (J)", "Imbalance (%)"},
+              .alignment = {right, right, right, right, right, right, right, right, right}};
+  const HistoryRow& start = result.history.front();
+  for (std::size_t k = 0; k < result.outlines.size(); ++k) {
+    const HistoryRow& row = row_at(result, test.setup.times[k]);
+    table.rows.push_back(
+        {format_number(test.setup.times[k], 3), format_number(kMillimetres * result.outlines[k].height()),
+         format_number(kMillimetres * result.outlines[k].toe()),
+         format_number(100.0 * (row.volume / start.volume - 1.0), 2), format_number(row.kinetic, 2),
+         format_number(row.potential), format_number(row.stress_work), format_number(row.boundary_work, 2),
+         format_number(100.0 * (total_energy(row) - total_energy(start)) / start.potential, 2)});
+  }
+  table.notes = {
+      "Height: highest point of the outline; toe: its largest radius. Imbalance: change of the sum of "
+      "energies and work over the potential energy at the start."};
+  return table;
+}
+
+Table material_table(const model::Parameters<double>& material) {
+  using enum Alignment;
+  Table table{.caption = "Material.",
+              .header = {"Parameter", "Value", "Unit", "Meaning"},
+              .alignment = {left, right, left, left}};
+  for (const model::ParameterInfo& info : model::kParameterTable) {
+    table.rows.push_back({std::string(info.name), format_number(in_key_unit(info.id, material[info.id])),
+                          std::string(info.unit == "-" ? kMissing : info.unit), std::string(info.meaning)});
+  }
+  if (material.lode() == model::LodeDependence::none) {
+    table.notes = {"Critical-state strength does not depend on the Lode angle."};
+  }
+  return table;
+}
+
+void add_summary(Page& page, const datasets::SlumpFile& test, const SlumpResult& result) {
+  const mpm::Outline& last = result.outlines.back();
+  page.verdict(
+      Tone::plain,
+      fmt::format("After {} the mud stands {} mm high and its toe is at {} mm; it was filled to "
+                  "{} mm in a mould of radius {} mm.",
+                  time_label(test.setup.times.back()), format_number(kMillimetres * last.height(), 3),
+                  format_number(kMillimetres * last.toe(), 3),
+                  format_number(kMillimetres * test.setup.mould.fill_height, 3),
+                  format_number(0.5 * kMillimetres * test.setup.mould.diameter, 3)));
+  const auto budget = [&](const char* what, double error, double limit) {
+    const bool kept = error <= limit;
+    page.verdict(kept ? Tone::good : Tone::warning,
+                 fmt::format("{} to within {} %{}", what, format_number(100.0 * error, 2),
+                             kept ? "."
+                                  : fmt::format(", more than the {} % to be expected: try smaller cells.",
+                                                format_number(100.0 * limit, 1))));
+  };
+  budget("Volume is kept", result.volume_error, kVolumeErrorLimit);
+  budget("The balance of energy closes", result.energy_error, kEnergyErrorLimit);
+  if (result.floored > 0) {
+    page.verdict(Tone::plain,
+                 fmt::format("{} of {} point updates left the domain of the law and were set to its "
+                             "least pressure, as where the skeleton has lost contact.",
+                             result.floored, format_number(result.particle_steps, 3)));
+  }
+  page.fact("Test", input_name(test.file));
+  page.fact("Mould", fmt::format("diameter {} mm, fill {} mm, raised at {} m/s, {} wall",
+                                 format_number(kMillimetres * test.setup.mould.diameter, 3),
+                                 format_number(kMillimetres * test.setup.mould.fill_height, 3),
+                                 format_number(test.setup.mould.lift_speed, 2),
+                                 test.setup.mould.wall == mpm::Wall::smooth ? "smooth" : "rough"));
+  page.fact("Mud",
+            fmt::format("e0 = {}, density {} kg/m³, OCR at the start {}, C_u = {} kPa at |D| = {} 1/s",
+                        format_number(result.initial.void_ratio), format_number(result.initial.density),
+                        format_number(test.setup.mud.overconsolidation_ratio, 3),
+                        format_number(1e-3 * result.initial.undrained_strength, 3),
+                        format_number(result.initial.strength_rate, 3)));
+  page.fact("Simulation",
+            fmt::format("cells of {} mm, {} points, {} steps",
+                        format_number(kMillimetres * result.cell_size, 3), result.points, result.steps));
+}
+
+}  // namespace
+
+Page slump_report(const RunInfo& run, const datasets::SlumpFile& test, const SlumpResult& result) {
+  Page page("Slump test, simulated", subtitle(run));
+  add_summary(page, test, result);
+  add_warnings(page, run.warnings);
+  page.table(output_table(test, result));
+
+  page.section("Outlines and history");
+  page.figure(outlines_figure(test, result));
+  page.figures(extent_figure(result), energy_figure(result));
+  page.section("Material, start and numerics");
+  const std::vector<NamedRun> runs{{"this\u00a0run", &test.setup, &result}};
+  page.table(material_table(test.material));
+  page.table(start_table(runs));
+  page.paragraph(numerics_text(runs.front()));
+  page.table(budget_table(runs));
+  if (!test.assumptions.empty()) page.box(Tone::plain, "Taken for granted:\n" + bulleted(test.assumptions));
+  return page;
+}
+
+}  // namespace isotach::reports

@@ -1,0 +1,127 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Tables and figures of simulated slumps.
+#include "reports/slump_tables.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/number.hpp"
+#include "reports/slump_json.hpp"
+
+namespace isotach::reports {
+namespace {
+
+constexpr double kMillimetres = 1e3;  // in a metre
+constexpr double kPercent = 100.0;
+
+std::string percent(double ratio) {
+  return format_number(kPercent * ratio, 2);
+}
+
+/// A share of all point updates, or none.
+std::string share_of_updates(long count, const mpm::SlumpResult& result) {
+  if (count == 0) return "0";
+  return fmt::format("{} ({} %)", count, percent(static_cast<double>(count) / result.particle_steps));
+}
+
+}  // namespace
+
+std::string time_label(double seconds) {
+  return fmt::format("{:.4g} s", seconds);
+}
+
+Table start_table(std::span<const NamedRun> runs) {
+  using enum Alignment;
+  Table table{.caption = "Moulds and the state the mud starts from.",
+              .header = {"Run", "Mould D (mm)", "Fill h (mm)", "h/D", "Lift (m/s)", "Wall", "e0", "ρ (kg/m³)",
+                         "p_B0 (kPa)", "p′ (kPa)", "C_u (kPa)"},
+              .alignment = {left, right, right, right, right, left, right, right, right, right, right}};
+  for (const NamedRun& run : runs) {
+    const mpm::Mould& mould = run.setup->mould;
+    const mpm::InitialState& initial = run.result->initial;
+    table.rows.push_back(
+        {run.name, format_number(kMillimetres * mould.diameter, 3),
+         format_number(kMillimetres * mould.fill_height, 3),
+         format_number(mould.fill_height / mould.diameter, 3), format_number(mould.lift_speed, 2),
+         mould.wall == mpm::Wall::smooth ? "smooth" : "rough", format_number(initial.void_ratio),
+         format_number(initial.density), format_number(1e-3 * initial.preconsolidation_pressure, 3),
+         format_number(1e-3 * initial.mean_effective_pressure, 3),
+         format_number(1e-3 * initial.undrained_strength, 3)});
+  }
+  const double rate = runs.empty() ? 0.0 : runs.front().result->initial.strength_rate;
+  table.notes = {
+      fmt::format("C_u is the undrained strength at the critical state at |D| = {} 1/s; p_B0 the "
+                  "preconsolidation pressure, p′ the isotropic effective pressure of the start.",
+                  format_number(rate, 3))};
+  return table;
+}
+
+Table budget_table(std::span<const NamedRun> runs) {
+  using enum Alignment;
+  Table table{
+      .caption = "Budgets of volume and energy.",
+      .header = {"Run", "Volume error (%)", "Outline volume error (%)", "Energy error (%)", "Points", "Steps",
+                 "Updates with substeps", "Updates set to the least pressure", "Largest inertia factor"},
+      .alignment = {left, right, right, right, right, right, right, right, right}};
+  for (const NamedRun& run : runs) {
+    const mpm::SlumpResult& result = *run.result;
+    table.rows.push_back({run.name, percent(result.volume_error), percent(result.outline_volume_error),
+                          percent(result.energy_error), fmt::format("{}", result.points),
+                          fmt::format("{}", result.steps), share_of_updates(result.substepped, result),
+                          share_of_updates(result.floored, result),
+                          format_number(largest_inertia_scaling(result), 3)});
+  }
+  table.notes = {
+      "Each error is the largest of the run. Volume: of the material points; outline volume: inside the "
+      "traced "
+      "outlines, against the first. Energy: |E_kin + E_pot + stress work + boundary work − E_0| over the "
+      "potential "
+      "energy at the start."};
+  return table;
+}
+
+std::string numerics_text(const NamedRun& run) {
+  const mpm::Numerics& numerics = run.setup->numerics;
+  return fmt::format(
+      "Axisymmetric material point method, explicit, undrained: cells of {} mm ({} mm asked for; they divide "
+      "the "
+      "mould's radius), {} points a cell at the start, bulk modulus of the water {} kPa, artificial "
+      "viscosity α = {} "
+      "(η = α ρ c h, which fades with the cell size), stress update to a relative tolerance of {}, time step "
+      "{} of "
+      "the critical one. While the flow is quasi-static, inertia may be scaled up to a factor of {}.",
+      format_number(kMillimetres * run.result->cell_size, 3),
+      format_number(kMillimetres * numerics.cell_size, 3), numerics.points_per_cell,
+      format_number(1e-3 * numerics.water_bulk_modulus, 3), format_number(numerics.artificial_viscosity, 2),
+      format_number(numerics.tolerance, 2), format_number(numerics.courant, 2),
+      format_number(numerics.inertia_scaling, 3));
+}
+
+Series outline_series(const mpm::Outline& outline, std::string label) {
+  Series series;
+  series.label = std::move(label);
+  for (const mpm::OutlinePoint& point : outline.points) {
+    series.x.push_back(kMillimetres * point.r);
+    series.y.push_back(kMillimetres * point.z);
+  }
+  return series;
+}
+
+Figure meridian_figure() {
+  Figure figure;
+  figure.x = {.label = "r (mm)", .min = 0.0};
+  figure.y = {.label = "z (mm)", .min = 0.0};
+  figure.equal_aspect = true;
+  return figure;
+}
+
+std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {
+  std::vector<std::size_t> indices;
+  if (size <= count) {
+    for (std::size_t i = 0; i < size; ++i) indices.push_back(i);
+    return indices;
+  }
+  for (std::size_t i = 0; i < count; ++i) indices.push_back(i * (size - 1) / (count - 1));
+  return indices;
+}
+
+}  // namespace isotach::reports
