@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // isotach fit-oedometer, fit-slump and calibrate: from a study to parameters and a report.
 #include <fmt/format.h>
 

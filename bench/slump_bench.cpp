@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Cost of a particle step and of the whole slump of test 1, at two cell sizes, on one thread.
 #include <benchmark/benchmark.h>
 

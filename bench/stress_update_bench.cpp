@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Cost of the stress update: one point by the scalar law and integrator, and many points in packs.
 #include <benchmark/benchmark.h>
 

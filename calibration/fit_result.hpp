@@ -1,5 +1,6 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
-// What a fit returns: parameters with their uncertainty, how each test is met, and how the answer was reached.
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// What a fit returns: parameters with their uncertainty, how each test is met, and how the answer was
+// reached.
 #pragma once
 
 #include <array>
@@ -38,7 +39,8 @@ struct TestSummary {
 /// Uncertainty of the coordinates from the Jacobian at the optimum.
 struct Uncertainty {
   Eigen::MatrixXd covariance;  ///< of the coordinates; along null directions taken as infinite
-  double inflation = 1.0;      ///< factor on standard errors for misfit beyond the noise and for correlated residuals
+  double inflation =
+      1.0;  ///< factor on standard errors for misfit beyond the noise and for correlated residuals
   double autocorrelation = 0.0;  ///< lag-1, of residuals within tests
   /// Directions in coordinate space that the data do not see, unit norm.
   std::vector<Eigen::VectorXd> null_directions;
@@ -49,9 +51,9 @@ struct FitResult {
   std::vector<ParameterEstimate> estimates;  ///< all parameters, in the order of ParameterId
   Eigen::MatrixXd correlation;               ///< of the coordinates
   Uncertainty uncertainty;
-  std::vector<TestSummary> tests;            ///< all, held-out ones included
-  OptimiserResult main;                      ///< the route whose answer is reported
-  std::optional<OptimiserResult> check;      ///< the independent route
+  std::vector<TestSummary> tests;        ///< all, held-out ones included
+  OptimiserResult main;                  ///< the route whose answer is reported
+  std::optional<OptimiserResult> check;  ///< the independent route
   double disagreement = 0.0;  ///< largest difference of the two routes' coordinates in standard errors
   GaugeChoice gauge;
   bool gauged = false;

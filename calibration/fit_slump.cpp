@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/fit_slump.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,8 @@ SlumpExperiments make_experiments(const datasets::Study& study, const std::atomi
   return all;
 }
 
-/// Indices in the order in which threads should take the tests up, so that none waits for a long one at the end.
+/// Indices in the order in which threads should take the tests up, so that none waits for a long one at the
+/// end.
 std::vector<std::size_t> by_cost(const SlumpExperiments& all) {
   std::vector<std::size_t> order(all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -41,12 +42,12 @@ double rms_where(const experiments::Values& values, const std::vector<bool>& cho
   return subset.empty() ? std::numeric_limits<double>::quiet_NaN() : experiments::root_mean_square(subset);
 }
 
-tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(const SlumpExperiments& all,
-                                                                   const model::Parameters<double>& parameters,
-                                                                   int threads) {
+tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(
+    const SlumpExperiments& all, const model::Parameters<double>& parameters, int threads) {
   std::vector<tl::expected<mpm::SlumpResult, experiments::PredictionFailure>> simulations(all.size());
   const std::vector<std::size_t> order = by_cost(all);
-  parallel_for(all.size(), threads, [&](std::size_t k) { simulations[order[k]] = all[order[k]]->simulate(parameters); });
+  parallel_for(all.size(), threads,
+               [&](std::size_t k) { simulations[order[k]] = all[order[k]]->simulate(parameters); });
   std::vector<SlumpComparison> comparisons;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!simulations[i]) {
@@ -71,20 +72,24 @@ double rms_mould_gone(const std::vector<SlumpComparison>& comparisons) {
   return experiments::root_mean_square(values);
 }
 
+/// D_r stays: the oedometer's gauge has been applied.
+Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
+                     const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
+                     int threads) {
+  Experiments by_length;
+  for (const std::size_t i : by_cost(all)) by_length.push_back(all[i]);
+  return Problem(by_length, Parametrisation(at, wanted, study.fit.bounds, GaugeChoice{}), threads);
+}
+
 }  // namespace
 
-tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study, const model::Parameters<double>& start,
-                                             const SlumpFitOptions& options) {
-  SlumpFit fit;
+tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
+                                                   const model::Parameters<double>& start,
+                                                   const std::vector<model::ParameterId>& wanted,
+                                                   const SlumpFitOptions& options) {
   const SlumpExperiments all = make_experiments(study, options.control.stop);
-  Experiments fitted;
-  for (const std::size_t i : by_cost(all)) fitted.push_back(all[i]);
-  GaugeChoice gauge;  // D_r stays: the oedometer's gauge has been applied
-  const Problem problem(fitted, Parametrisation(start, study.fit.slump, study.fit.bounds, gauge), options.threads);
+  const Problem problem = make_problem(all, study, start, wanted, options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
-  FitResult& result = fit.result;
-  result.free = parametrisation.free();
-  result.gauge = gauge;
 
   NloptOptions nlopt;
   nlopt.first_step = options.first_step;
@@ -92,36 +97,49 @@ tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study, const
   nlopt.coordinate_tolerance = 0.01;  // simulations carry noise of about this size
   nlopt.cost_tolerance = 1e-3;
   nlopt.max_evaluations = options.max_evaluations;
-  result.main = minimise_with_nlopt(problem, parametrisation.start(), nlopt, options.control);
-  if (result.main.interrupted) return tl::unexpected(FitFailure{"interrupted", true});
-  if (result.main.trace.empty()) {
-    return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + result.main.last_failure});
+  OptimiserResult search = minimise_with_nlopt(problem, parametrisation.start(), nlopt, options.control);
+  if (search.interrupted) return tl::unexpected(FitFailure{"interrupted", true});
+  if (search.trace.empty()) {
+    return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
   }
-  if (!result.main.converged) result.warnings.push_back("NLopt stopped early: " + result.main.termination);
-  if (result.main.failed_evaluations > 0) {
-    result.warnings.push_back(fmt::format("{} of {} evaluations failed and were refused; the last: {}",
-                                          result.main.failed_evaluations, result.main.evaluations,
-                                          result.main.last_failure));
+  SlumpSearch found{*parametrisation.at(search.coordinates), std::move(search), 0, {}};
+  found.simulations = found.search.evaluations * static_cast<int>(problem.fitted().size());
+  if (!found.search.converged) found.warnings.push_back("NLopt stopped early: " + found.search.termination);
+  if (found.search.failed_evaluations > 0) {
+    found.warnings.push_back(fmt::format("{} of {} evaluations failed and were refused; the last: {}",
+                                         found.search.failed_evaluations, found.search.evaluations,
+                                         found.search.last_failure));
   }
-  fit.simulations = result.main.evaluations * static_cast<int>(problem.fitted().size());
-  result.parameters = *parametrisation.at(result.main.coordinates);
-  if (!options.uncertainty) return fit;
+  return found;
+}
 
-  if (options.control.callback) options.control.callback(-1, result.main.cost);
-  auto uncertainty = estimate_uncertainty(problem, result.main.coordinates, Correlation::serial);
+tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, const SlumpSearch& found,
+                                                const std::vector<model::ParameterId>& wanted,
+                                                const SlumpFitOptions& options) {
+  const SlumpExperiments all = make_experiments(study, options.control.stop);
+  const Problem problem = make_problem(all, study, found.parameters, wanted, options.threads);
+  const std::vector<double>& answer = problem.parametrisation().start();
+  SlumpFit fit;
+  FitResult& result = fit.result;
+  result.free = problem.parametrisation().free();
+  result.main = found.search;
+  result.warnings = found.warnings;
+  result.parameters = found.parameters;
+
+  auto uncertainty = estimate_uncertainty(problem, answer, Correlation::serial);
   if (!uncertainty) {
     return tl::unexpected(FitFailure{uncertainty.error().message, uncertainty.error().interrupted});
   }
-  fit.simulations += static_cast<int>(problem.fitted().size() * (1 + 2 * result.free.size()));
   result.uncertainty = std::move(*uncertainty);
   result.correlation = correlation_of(result.uncertainty.covariance);
-  result.estimates = estimate_parameters(problem, result.main.coordinates, result.uncertainty);
+  result.estimates = estimate_parameters(problem, answer, result.uncertainty);
 
-  auto comparisons = compare_all(all, *result.parameters, options.threads);
+  auto comparisons = compare_all(all, found.parameters, options.threads);
   if (!comparisons) return tl::unexpected(comparisons.error());
   fit.comparisons = std::move(*comparisons);
-  fit.simulations += static_cast<int>(all.size());
   fit.rms_mould_gone = rms_mould_gone(fit.comparisons);
+  fit.simulations = found.simulations + static_cast<int>(problem.fitted().size() * (1 + 2 * answer.size())) +
+                    static_cast<int>(all.size());
   result.adequate = true;
   for (const SlumpComparison& comparison : fit.comparisons) {
     const experiments::Values scaled = comparison.experiment->scaled_residuals(comparison.distances);
@@ -131,6 +149,15 @@ tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study, const
     result.tests.push_back(test);
   }
   return fit;
+}
+
+tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study,
+                                             const model::Parameters<double>& start,
+                                             const SlumpFitOptions& options) {
+  const auto found = search_slump(study, start, study.fit.slump, options);
+  if (!found) return tl::unexpected(found.error());
+  if (options.control.callback) options.control.callback(-1, found->search.cost);
+  return assess_slump(study, *found, study.fit.slump, options);
 }
 
 }  // namespace isotach::calibration

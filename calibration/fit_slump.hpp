@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The fit of a study's slump tests by MPM simulations.
 #pragma once
 
@@ -27,14 +27,33 @@ struct SlumpFit {
 struct SlumpFitOptions {
   int threads = 1;
   int max_evaluations = 40;
-  double first_step = 0.2;       ///< of logarithmic coordinates
+  double first_step = 0.2;  ///< of logarithmic coordinates
   double first_step_C_1 = 0.08;
-  bool uncertainty = true;       ///< costs 2 evaluations a coordinate and the comparison of all tests
   OptimiserControl control;
 };
 
-/// Fits the study's [fit] slump parameters from `start` to the tests that are not held out, with NLopt; tests
-/// of one evaluation run in parallel.
+/// What a search found, before its uncertainty and the comparison with all tests are worked out.
+struct SlumpSearch {
+  model::Parameters<double> parameters;
+  OptimiserResult search;
+  int simulations = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Moves `wanted` from `start` to fit the study's slump tests that are not held out, with NLopt; tests of one
+/// evaluation run in parallel.
+[[nodiscard]] tl::expected<SlumpSearch, FitFailure> search_slump(
+    const datasets::Study& study, const model::Parameters<double>& start,
+    const std::vector<model::ParameterId>& wanted, const SlumpFitOptions& options);
+
+/// Uncertainty of `wanted` at the answer of a search (two evaluations a parameter and one) and the comparison
+/// with all tests, held-out ones included.
+[[nodiscard]] tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study,
+                                                              const SlumpSearch& found,
+                                                              const std::vector<model::ParameterId>& wanted,
+                                                              const SlumpFitOptions& options);
+
+/// Search and assessment of the study's [fit] slump parameters.
 [[nodiscard]] tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study,
                                                            const model::Parameters<double>& start,
                                                            const SlumpFitOptions& options);

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The route by NLopt: BOBYQA, without derivatives.
 #include <cmath>
 #include <nlopt.hpp>
@@ -9,7 +9,8 @@ namespace isotach::calibration {
 
 namespace {
 
-// Cost of a point whose prediction failed: above anything a fit can meet, finite so that BOBYQA's models survive.
+// Cost of a point whose prediction failed: above anything a fit can meet, finite so that BOBYQA's models
+// survive.
 constexpr double kRefused = 1e12;
 constexpr double kShorterStep = 0.2;
 
@@ -76,14 +77,14 @@ double objective(const std::vector<double>& x, std::vector<double>&, void* searc
 OptimiserResult minimise_with_nlopt(const Problem& problem, const std::vector<double>& start,
                                     const NloptOptions& options, const OptimiserControl& control) {
   OptimiserResult result;
-  result.route = "NLopt (BOBYQA)";
+  result.route = start.size() > 1 ? "NLopt (BOBYQA)" : "NLopt (COBYLA)";
   result.coordinates = start;
   result.cost = kRefused;
   const Parametrisation& parametrisation = problem.parametrisation();
   const auto dimension = static_cast<unsigned>(start.size());
   double shrink = 1.0;
   for (int run = 0; run <= options.restarts && !result.interrupted; ++run, shrink *= kShorterStep) {
-    nlopt::opt optimiser(nlopt::LN_BOBYQA, dimension);
+    nlopt::opt optimiser(dimension > 1 ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, dimension);
     Search search{problem, control, result, optimiser};
     optimiser.set_min_objective(objective, &search);
     optimiser.set_lower_bounds(parametrisation.lower());
@@ -92,7 +93,8 @@ OptimiserResult minimise_with_nlopt(const Problem& problem, const std::vector<do
     for (std::size_t k = 0; k < start.size(); ++k) {
       const double step = parametrisation.logarithmic(k) ? options.first_step : options.first_step_C_1;
       // BOBYQA wants room for its first step on one side at least
-      steps.push_back(std::min(shrink * step, 0.45 * (parametrisation.upper()[k] - parametrisation.lower()[k])));
+      steps.push_back(
+          std::min(shrink * step, 0.45 * (parametrisation.upper()[k] - parametrisation.lower()[k])));
     }
     optimiser.set_initial_step(steps);
     optimiser.set_xtol_abs(options.coordinate_tolerance);

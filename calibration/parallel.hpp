@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Independent tasks on several threads.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace isotach::calibration {
 
-/// Calls task(0) .. task(count - 1), each once, at most `threads` at a time; tasks start in order. An exception of a
-/// task is thrown here once all running ones have ended.
+/// Calls task(0) .. task(count - 1), each once, at most `threads` at a time; tasks start in order. An
+/// exception of a task is thrown here once all running ones have ended.
 template <class Task>
 void parallel_for(std::size_t count, int threads, Task&& task) {
   std::atomic<std::size_t> next{0};

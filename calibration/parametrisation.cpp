@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/parametrisation.hpp"
 
 #include <algorithm>
@@ -28,9 +28,10 @@ datasets::Bounds default_bounds(model::ParameterId id) {
   return {0.0, 0.0};
 }
 
-Parametrisation::Parametrisation(const model::Parameters<double>& start, const std::vector<model::ParameterId>& wanted,
-                                 const std::array<std::optional<datasets::Bounds>, model::kParameterCount>& bounds,
-                                 const GaugeChoice& gauge)
+Parametrisation::Parametrisation(
+    const model::Parameters<double>& start, const std::vector<model::ParameterId>& wanted,
+    const std::array<std::optional<datasets::Bounds>, model::kParameterCount>& bounds,
+    const GaugeChoice& gauge)
     : base_(start.values()), gauge_(gauge) {
   for (const model::ParameterId id : wanted) {
     if (id == model::ParameterId::D_r && gauge.kind != datasets::Gauge::none) {
@@ -47,7 +48,8 @@ Parametrisation::Parametrisation(const model::Parameters<double>& start, const s
   }
 }
 
-tl::expected<Parametrisation::Tangent, std::string> Parametrisation::tangent(const std::vector<double>& x) const {
+tl::expected<Parametrisation::Tangent, std::string> Parametrisation::tangent(
+    const std::vector<double>& x) const {
   using Jet = ceres::Jet<double, static_cast<int>(model::kParameterCount)>;
   std::vector<Jet> jets;
   for (std::size_t k = 0; k < x.size(); ++k) jets.emplace_back(x[k], static_cast<int>(k));

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The coordinates a fit moves in, and the parameters they stand for: logarithms, bounds and the gauge.
 #pragma once
 
@@ -19,13 +19,13 @@ struct GaugeChoice {
 
 /// Free parameters as coordinates: ln of positive ones, C_1 as it is.
 ///
-/// (e100, D_r) enter any prediction only through D_r (1+e100)^(-1/(lambda I_v)). Under Gauge::crs_rate D_r is therefore
-/// not a coordinate but the |D_vis| of steady oedometric compression at the reference rate, a function of lambda,
-/// kappa, phi_c and C_1; then OCR = 1 on that isotach and e100 is read off it.
+/// (e100, D_r) enter any prediction only through D_r (1+e100)^(-1/(lambda I_v)). Under Gauge::crs_rate D_r is
+/// therefore not a coordinate but the |D_vis| of steady oedometric compression at the reference rate, a
+/// function of lambda, kappa, phi_c and C_1; then OCR = 1 on that isotach and e100 is read off it.
 class Parametrisation {
  public:
-  /// `wanted` are the parameters a study wants moved; `bounds` in SI, in the order of ParameterId, defaults where
-  /// absent.
+  /// `wanted` are the parameters a study wants moved; `bounds` in SI, in the order of ParameterId, defaults
+  /// where absent.
   Parametrisation(const model::Parameters<double>& start, const std::vector<model::ParameterId>& wanted,
                   const std::array<std::optional<datasets::Bounds>, model::kParameterCount>& bounds,
                   const GaugeChoice& gauge);

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/problem.hpp"
 
 #include <numeric>
@@ -11,7 +11,8 @@ namespace {
 
 /// Runs f(i) for all experiments in parallel and returns the results, or the first failure in their order.
 template <class Result, class F>
-tl::expected<std::vector<Result>, experiments::PredictionFailure> for_all(std::size_t count, int threads, F&& f) {
+tl::expected<std::vector<Result>, experiments::PredictionFailure> for_all(std::size_t count, int threads,
+                                                                          F&& f) {
   std::vector<tl::expected<Result, experiments::PredictionFailure>> results(count);
   parallel_for(count, threads, [&](std::size_t i) { results[i] = f(i); });
   std::vector<Result> values;
@@ -33,9 +34,8 @@ double Evaluation::cost() const {
   return 0.5 * sum;
 }
 
-tl::expected<Evaluation, experiments::PredictionFailure> evaluate_all(const Experiments& experiments,
-                                                                      const model::Parameters<double>& parameters,
-                                                                      int threads) {
+tl::expected<Evaluation, experiments::PredictionFailure> evaluate_all(
+    const Experiments& experiments, const model::Parameters<double>& parameters, int threads) {
   auto all = for_all<experiments::Values>(
       experiments.size(), threads,
       [&](std::size_t i) -> tl::expected<experiments::Values, experiments::PredictionFailure> {
@@ -56,13 +56,15 @@ Problem::Problem(const Experiments& experiments, Parametrisation parametrisation
   }
 }
 
-tl::expected<Evaluation, experiments::PredictionFailure> Problem::evaluate(const std::vector<double>& x) const {
+tl::expected<Evaluation, experiments::PredictionFailure> Problem::evaluate(
+    const std::vector<double>& x) const {
   const auto parameters = parametrisation_.at(x);
   if (!parameters) return tl::unexpected(experiments::PredictionFailure{parameters.error()});
   return evaluate_all(fitted_, *parameters, threads_);
 }
 
-tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(const std::vector<double>& x) const {
+tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(
+    const std::vector<double>& x) const {
   const auto tangent = parametrisation_.tangent(x);
   if (!tangent) return tl::unexpected(experiments::PredictionFailure{tangent.error()});
   // the gauge makes D_r move along with the coordinates
@@ -73,8 +75,9 @@ tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(cons
     chain.row(static_cast<Eigen::Index>(k)) = tangent->derivative.row(static_cast<Eigen::Index>(moving[k]));
   }
 
-  const auto all = for_all<experiments::Linearisation>(
-      fitted_.size(), threads_, [&](std::size_t i) { return fitted_[i]->linearise(tangent->parameters, moving); });
+  const auto all = for_all<experiments::Linearisation>(fitted_.size(), threads_, [&](std::size_t i) {
+    return fitted_[i]->linearise(tangent->parameters, moving);
+  });
   if (!all) return tl::unexpected(all.error());
 
   Linearised result;

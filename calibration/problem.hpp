@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The least-squares problem of a fit: experiments, coordinates, and the evaluation of both at a point.
 #pragma once
 
@@ -27,7 +27,8 @@ struct Linearised {
 
 class Problem {
  public:
-  /// `experiments` as a study lists them; those held out take no part. `threads` >= 1 experiments run at once.
+  /// `experiments` as a study lists them; those held out take no part. `threads` >= 1 experiments run at
+  /// once.
   Problem(const Experiments& experiments, Parametrisation parametrisation, int threads);
 
   [[nodiscard]] const Parametrisation& parametrisation() const { return parametrisation_; }
@@ -35,8 +36,10 @@ class Problem {
   [[nodiscard]] std::size_t residual_count() const { return residual_count_; }
   [[nodiscard]] int threads() const { return threads_; }
 
-  [[nodiscard]] tl::expected<Evaluation, experiments::PredictionFailure> evaluate(const std::vector<double>& x) const;
-  [[nodiscard]] tl::expected<Linearised, experiments::PredictionFailure> linearise(const std::vector<double>& x) const;
+  [[nodiscard]] tl::expected<Evaluation, experiments::PredictionFailure> evaluate(
+      const std::vector<double>& x) const;
+  [[nodiscard]] tl::expected<Linearised, experiments::PredictionFailure> linearise(
+      const std::vector<double>& x) const;
 
  private:
   Experiments fitted_;

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/uncertainty.hpp"
 
 #include <Eigen/SVD>
@@ -63,7 +63,8 @@ tl::expected<Uncertainty, experiments::PredictionFailure> estimate_uncertainty(c
                                                                                Correlation correlation) {
   const auto linearised = problem.linearise(x);
   if (!linearised) return tl::unexpected(linearised.error());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linearised->jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linearised->jacobian,
+                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
   const auto& singular = svd.singularValues();
   const Eigen::Index count = linearised->jacobian.cols();
   Uncertainty result;
@@ -97,7 +98,8 @@ std::vector<ParameterEstimate> estimate_parameters(const Problem& problem, const
   if (!tangent) return estimates;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   for (const auto& parameter : model::kParameterTable) {
-    estimates.push_back({parameter.id, tangent->parameters[parameter.id], kNone, kNone, kNone, Verdict::fixed});
+    estimates.push_back(
+        {parameter.id, tangent->parameters[parameter.id], kNone, kNone, kNone, Verdict::fixed});
   }
   const auto& free = parametrisation.free();
   const double widest_C_1 = 1.0 - tangent->parameters.kappa() / tangent->parameters.lambda();
@@ -117,12 +119,14 @@ std::vector<ParameterEstimate> estimate_parameters(const Problem& problem, const
     estimate.std_error = log ? estimate.value * error : error;
     estimate.ci95_lower = log ? std::exp(lower) : lower;
     estimate.ci95_upper = log ? std::exp(upper) : upper;
-    estimate.verdict = std::isfinite(error) ? judge(free[k], estimate, at_bound, widest_C_1) : Verdict::undetermined;
+    estimate.verdict =
+        std::isfinite(error) ? judge(free[k], estimate, at_bound, widest_C_1) : Verdict::undetermined;
   }
   if (parametrisation.gauged()) {
     // D_r follows from the others: its error by the chain rule
     ParameterEstimate& estimate = estimates[static_cast<std::size_t>(model::ParameterId::D_r)];
-    const Eigen::RowVectorXd row = tangent->derivative.row(static_cast<Eigen::Index>(model::ParameterId::D_r));
+    const Eigen::RowVectorXd row =
+        tangent->derivative.row(static_cast<Eigen::Index>(model::ParameterId::D_r));
     estimate.std_error = std::sqrt((row * uncertainty.covariance * row.transpose())(0, 0));
     estimate.ci95_lower = estimate.value - kQuantile95 * estimate.std_error;
     estimate.ci95_upper = estimate.value + kQuantile95 * estimate.std_error;

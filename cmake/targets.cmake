@@ -1,4 +1,4 @@
-# Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+# Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 # The compile flags every target shares, and how a folder becomes a library target.
 
 add_library(isotach_flags INTERFACE)

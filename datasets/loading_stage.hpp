@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The stage of an oedometer test that a reading belongs to, as recorded or as deduced from the strain
 // history.
 #pragma once

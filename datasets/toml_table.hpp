@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Checked access to the tables of a TOML file: every key is asked for with what it accepts, and none is left
 // over.
 #pragma once

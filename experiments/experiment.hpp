@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // What calibration, discovery and reports know of a test: values measured, their noise, and what a model predicts.
 #pragma once
 

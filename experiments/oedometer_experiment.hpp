@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // A strain-driven oedometer test: the measured strain history goes in, ln of axial effective stress comes out.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Reference integration by SUNDIALS CVODE: BDF, Newton with the exact Jacobian by automatic differentiation.
 #pragma once
 

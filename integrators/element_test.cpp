@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Stages split into rows, each integrated from where the last one ended.
 #include "integrators/element_test.hpp"
 

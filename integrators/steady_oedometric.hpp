@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The steady state of oedometric compression at constant rate: stress ratio and viscous strain rate.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The visco-hypoplastic (VHP) law, isotropic form: stress and void ratio rates as a pure function.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Lookup of parameters by name, and the checks a set of values has to pass.
 #include "model/parameters.hpp"
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The material parameters of the visco-hypoplastic law: what each is, its bounds, and a validated set of
 // them.
 #pragma once

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // What the law asks of its scalar beside arithmetic, exp, log, sin and sqrt: the plain value.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The background grid: nodes at the centres of square cells, mirrored in the axis and in the base.
 #pragma once
 
@@ -45,6 +45,7 @@ class Grid {
   [[nodiscard]] const NodeVelocity* velocities() const { return velocities_.data(); }
   /// Values at the cell corners (i h, j h), index(i, j): bilinear averages of point values.
   [[nodiscard]] double* corner_values() { return corner_values_.data(); }
+  [[nodiscard]] const double* corner_values() const { return corner_values_.data(); }
   [[nodiscard]] double* corner_volumes() { return corner_volumes_.data(); }
 
   /// Nodes in use: columns 0 .. used_columns - 1 and rows 0 .. used_rows - 1.

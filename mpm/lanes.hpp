@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // A scalar that is as many doubles as the machine's vector registers hold, so that the law runs on many
 // points at once.
 #pragma once

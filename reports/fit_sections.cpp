@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Verdicts, tables and figures of any fit.
 #include "reports/fit_sections.hpp"
 
@@ -50,9 +50,9 @@ Figure trace_figure(const FitResult& result, F&& f) {
   return figure;
 }
 
-std::vector<std::string> texts_with(const FitResult& result, Verdict verdict) {
+std::vector<std::string> texts_with(const std::vector<ParameterEstimate>& estimates, Verdict verdict) {
   std::vector<std::string> texts;
-  for (const ParameterEstimate& estimate : result.estimates) {
+  for (const ParameterEstimate& estimate : estimates) {
     if (estimate.verdict == verdict) texts.push_back(parameter_text(estimate));
   }
   return texts;
@@ -108,21 +108,28 @@ std::string interval_text(const ParameterEstimate& si) {
   const double largest = std::max(std::abs(estimate.ci95_lower), std::abs(estimate.ci95_upper));
   const int digits = width > 0.0 ? static_cast<int>(std::ceil(std::log10(largest / width))) + 2 : 4;
   const int shown = std::clamp(digits, 2, 9);
-  return fmt::format("{} to {}", format_number(estimate.ci95_lower, shown),
-                     format_number(estimate.ci95_upper, shown));
+  const std::string lower = format_number(estimate.ci95_lower, shown);
+  const std::string upper = format_number(estimate.ci95_upper, shown);
+  const std::size_t power = lower.find("×");
+  if (power == std::string::npos || !upper.ends_with(lower.substr(power))) {
+    return fmt::format("{} to {}", lower, upper);
+  }
+  return fmt::format("({} to {}){}", lower.substr(0, power), upper.substr(0, upper.find("×")),
+                     lower.substr(power));
 }
 
-void add_parameter_verdicts(Page& page, const FitResult& result) {
-  if (const auto texts = texts_with(result, Verdict::identified); !texts.empty()) {
+void add_parameter_verdicts(Page& page, const std::vector<ParameterEstimate>& estimates) {
+  if (const auto texts = texts_with(estimates, Verdict::identified); !texts.empty()) {
     page.verdict(Tone::good, fmt::format("The data determine {}.", listed(texts)));
   }
-  if (const auto texts = texts_with(result, Verdict::weak); !texts.empty()) {
+  if (const auto texts = texts_with(estimates, Verdict::weak); !texts.empty()) {
     page.verdict(Tone::warning, fmt::format("Only weakly determined: {}.", listed(texts)));
   }
   std::vector<std::string> undetermined;
-  for (const ParameterEstimate& si : result.estimates) {
-    if (si.verdict != Verdict::undetermined) continue;
-    undetermined.push_back(fmt::format("{} (95 % interval {})", parameter_text(si), interval_text(si)));
+  for (const ParameterEstimate& estimate : estimates) {
+    if (estimate.verdict != Verdict::undetermined) continue;
+    undetermined.push_back(
+        fmt::format("{} (95 % interval {})", parameter_text(estimate), interval_text(estimate)));
   }
   if (!undetermined.empty()) {
     page.verdict(Tone::warning, fmt::format("These data do not determine {}: other values would do as well.",
@@ -131,59 +138,50 @@ void add_parameter_verdicts(Page& page, const FitResult& result) {
 }
 
 void add_adequacy_verdict(Page& page, const FitResult& result, std::string_view tests) {
-  const Group group = group_of(result, false);
-  if (result.adequate) {
-    page.verdict(Tone::good,
-                 fmt::format("The model is adequate for the fitted {}: none is missed by more than {} "
-                             "times its noise (root mean square; {} is the limit, 1 as good as the "
-                             "noise allows).",
-                             tests, format_number(group.worst, 3), format_number(calibration::kAdequate, 2)));
-    return;
+  const Group fitted = group_of(result, false);
+  const Group held_out = group_of(result, true);
+  const std::string limit = format_number(calibration::kAdequate, 2);
+  std::string sentence =
+      result.adequate
+          ? fmt::format(
+                "The model is adequate for the fitted {}: none is missed by more than {} times its noise "
+                "(root mean square; {} is the limit, 1 as good as the noise allows).",
+                tests, format_number(fitted.worst, 3), limit)
+          : fmt::format(
+                "The model is not adequate for the fitted {}: beyond {} times the noise (root mean square) "
+                "are {}.",
+                tests, limit, listed(fitted.missed));
+  if (!held_out.names.empty()) {
+    sentence +=
+        held_out.missed.empty()
+            ? fmt::format(" Held out and predicted to within {} times the noise: {}.",
+                          format_number(held_out.worst, 3), listed(held_out.names))
+            : fmt::format(" Held out and predicted less well than that: {}.", listed(held_out.missed));
   }
-  page.verdict(Tone::bad,
-               fmt::format("The model is not adequate for the fitted {}: beyond the limit of {} times "
-                           "the noise (root mean square) are {}.",
-                           tests, format_number(calibration::kAdequate, 2), listed(group.missed)));
-}
-
-void add_held_out_verdict(Page& page, const FitResult& result) {
-  const Group group = group_of(result, true);
-  if (group.names.empty()) return;
-  const std::string who = fmt::format("{}, held out from the fit, {}", listed(group.names),
-                                      group.names.size() == 1 ? "is" : "are");
-  if (group.missed.empty()) {
-    page.verdict(Tone::good, fmt::format("{} predicted to within {} times the noise.", who,
-                                         format_number(group.worst, 3)));
-  } else {
-    page.verdict(Tone::warning,
-                 fmt::format("{} predicted less well than the noise allows: {} times the noise.", who,
-                             listed(group.missed)));
-  }
+  const Tone tone = !result.adequate ? Tone::bad : held_out.missed.empty() ? Tone::good : Tone::warning;
+  page.verdict(tone, std::move(sentence));
 }
 
 void add_warnings(Page& page, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) page.verdict(Tone::warning, warning + ".");
 }
 
-Table parameter_table(const std::vector<ParameterEstimate>& estimates, std::string caption) {
+Table parameter_table(const std::vector<ParameterEstimate>& estimates, std::string caption,
+                      Meanings meanings) {
   using enum Alignment;
-  Table table{
-      .caption = std::move(caption),
-      .header = {"Parameter", "Value ± standard error", "95 % interval", "Unit", "Verdict", "Meaning"},
-      .alignment = {left, right, right, left, left, left}};
+  Table table{.caption = std::move(caption),
+              .header = {"Parameter", "Value ± standard error", "95 % interval", "Unit", "Verdict"},
+              .alignment = {left, right, right, left, left}};
+  if (meanings == Meanings::shown) table.header.push_back("Meaning");
   for (const ParameterEstimate& si : estimates) {
     const ParameterEstimate estimate = in_key_unit(si);
     const model::ParameterInfo& info = model::info(si.id);
     table.rows.push_back({std::string(info.name), format_with_error(estimate.value, estimate.std_error),
                           interval_text(si), std::string(info.unit == "-" ? kMissing : info.unit),
-                          std::string(calibration::name_of(estimate.verdict)), std::string(info.meaning)});
+                          std::string(calibration::name_of(estimate.verdict))});
+    if (meanings == Meanings::shown) table.rows.back().emplace_back(info.meaning);
   }
-  table.notes = {
-      "Identified: half the 95 % interval is at most 25 % of the value; weak: at most all of it, or the "
-      "value lies "
-      "on its bound; undetermined: more. C_1, which may be zero, is compared with 40 % of the range it can "
-      "have. "
-      "Fixed: not fitted."};
+  if (meanings == Meanings::shown) table.notes = {std::string(kVerdictNote)};
   return table;
 }
 

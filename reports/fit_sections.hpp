@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // What the reports of all fits share: verdicts in words, tables of parameters and tests, convergence.
 #pragma once
 
@@ -19,17 +19,27 @@ namespace isotach::reports {
 [[nodiscard]] std::string interval_text(const calibration::ParameterEstimate& estimate);
 
 /// Verdicts: one sentence each on those parameters that are well, weakly or not determined.
-void add_parameter_verdicts(Page& page, const calibration::FitResult& result);
-/// Verdict: whether every fitted test is met to within its noise. `tests` says which: "oedometer tests".
+void add_parameter_verdicts(Page& page, const std::vector<calibration::ParameterEstimate>& estimates);
+/// Verdict: whether every fitted test is met to within its noise, and how well those held out are predicted.
+/// `tests` says which: "oedometer tests".
 void add_adequacy_verdict(Page& page, const calibration::FitResult& result, std::string_view tests);
-/// Verdict on the tests held out, if there are any.
-void add_held_out_verdict(Page& page, const calibration::FitResult& result);
 /// One warning each for what the fit had to say.
 void add_warnings(Page& page, const std::vector<std::string>& warnings);
 
-/// Value, error, interval, unit, verdict and meaning of every parameter.
+/// What the verdicts on parameters mean; the limits are those of calibration.
+inline constexpr std::string_view kVerdictNote =
+    "Identified: half the 95 % interval is at most 25 % of the value; weak: at most all of it, or the value "
+    "lies on "
+    "its bound; undetermined: more. C_1, which may be zero, is compared with 40 % of the range it can have. "
+    "Fixed: "
+    "not fitted.";
+
+/// Whether a table of parameters says what they are and what the verdicts mean.
+enum class Meanings { shown, left_out };
+
+/// Value, error, interval, unit and verdict of every parameter.
 [[nodiscard]] Table parameter_table(const std::vector<calibration::ParameterEstimate>& estimates,
-                                    std::string caption);
+                                    std::string caption, Meanings meanings);
 /// The table of correlations; without rows where fewer than two parameters are free.
 [[nodiscard]] Table correlation_table(const calibration::FitResult& result);
 /// Null directions, if any, in words.

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Compression curves, residuals and tables of an oedometer fit.
 #include "reports/oedometer_report.hpp"
 
@@ -77,7 +77,6 @@ Figure residual_figure(Axis x, std::vector<double> at, const std::vector<double>
 }
 
 void add_curves(Page& page, const OedometerFit& fit) {
-  page.section("Oedometer: compression curves and residuals");
   page.paragraph(
       fmt::format("The model follows the measured strain history; its axial effective stress is compared "
                   "with the measured one. "
@@ -123,15 +122,17 @@ Table specimen_table(const OedometerFit& fit) {
               .header = {"Test", "H0 (mm)", "e0", "Start: axial stress (kPa)", "K0", "Noise of stress",
                          "floor (kPa)", "Noise of strain"},
               .alignment = {left, right, right, right, right, right, right, right}};
+  std::vector<std::string> sources;
   for (const auto& experiment : fit.experiments) {
     const datasets::OedometerTest& test = experiment->test();
     table.rows.push_back(
-        {test.name, format_number(1e3 * test.height), format_number(test.void_ratio),
+        {test.name, format_number(1e3 * test.height), format_number(test.void_ratio, 5),
          format_number(1e-3 * experiment->start().axial_stress), format_number(test.initial_K0, 3),
          fmt::format("{} %", format_number(100.0 * test.noise.stress_relative, 2)),
          format_number(1e-3 * test.noise.stress_floor, 2), format_number(test.noise.strain, 2)});
-    table.notes.push_back(fmt::format("{}: e0 from {}.", test.name, test.void_ratio_source));
+    sources.push_back(fmt::format("{} {}", test.name, test.void_ratio_source));
   }
+  table.notes = {fmt::format("Where e0 comes from: {}.", fmt::join(sources, "; "))};
   return table;
 }
 
@@ -154,7 +155,6 @@ void add_gauge(Page& page, const OedometerFit& fit) {
 }
 
 void add_data_notes(Page& page, const datasets::Study& study, const OedometerFit& fit) {
-  page.section("Oedometer: data, and what was assumed");
   page.table(test_table(study, fit));
   page.table(specimen_table(fit));
   Table dropped{.caption = "Rows left out.",
@@ -188,33 +188,17 @@ void add_data_notes(Page& page, const datasets::Study& study, const OedometerFit
 
 }  // namespace
 
-void add_oedometer_summary(Page& page, const datasets::Study& study, const OedometerFit& fit) {
+void add_oedometer_verdicts(Page& page, const OedometerFit& fit) {
   const calibration::FitResult& result = fit.result;
   add_adequacy_verdict(page, result, "oedometer tests");
-  add_held_out_verdict(page, result);
-  add_parameter_verdicts(page, result);
-  if (result.check) {
-    page.verdict(result.disagreement <= 0.1 ? Tone::good : Tone::warning,
-                 fmt::format("Two independent searches, {} and {}, end {} standard errors apart.",
-                             result.main.route, result.check->route, format_number(result.disagreement, 2)));
-  }
   if (!result.uncertainty.null_directions.empty()) page.verdict(Tone::bad, gauge_sentence(result));
   add_warnings(page, result.warnings);
-  if (result.uncertainty.null_directions.empty()) page.fact("Gauge", gauge_sentence(result));
-  std::size_t readings = 0;
-  std::size_t dropped = 0;
-  for (const auto& experiment : fit.experiments) {
-    readings += experiment->rows().size();
-    dropped += experiment->test().record.notes.size();
-  }
-  page.fact("Oedometer data", fmt::format("{} tests, {} readings compared, {} rows left out ({})",
-                                          fit.experiments.size(), readings, dropped, input_name(study.file)));
 }
 
-void add_oedometer_sections(Page& page, const datasets::Study& study, const OedometerFit& fit) {
+void add_oedometer_section(Page& page, const datasets::Study& study, const OedometerFit& fit) {
   const calibration::FitResult& result = fit.result;
+  page.section("Oedometer tests");
   add_curves(page, fit);
-  page.section("Oedometer: uncertainty, convergence and gauge");
   if (Table correlation = correlation_table(result); !correlation.rows.empty()) {
     page.table(std::move(correlation));
   }
@@ -230,11 +214,26 @@ void add_oedometer_sections(Page& page, const datasets::Study& study, const Oedo
 }
 
 Page oedometer_report(const RunInfo& run, const datasets::Study& study, const OedometerFit& fit) {
+  const calibration::FitResult& result = fit.result;
   Page page("Oedometer fit", subtitle(run));
-  add_oedometer_summary(page, study, fit);
+  add_oedometer_verdicts(page, fit);
+  add_parameter_verdicts(page, result.estimates);
   add_warnings(page, run.warnings);
-  page.table(parameter_table(fit.result.estimates, "Parameters."));
-  add_oedometer_sections(page, study, fit);
+  page.fact("Gauge", gauge_sentence(result));
+  if (result.check) {
+    page.fact("Independent check", fmt::format("{} ends {} standard errors from {}", result.check->route,
+                                               format_number(result.disagreement, 2), result.main.route));
+  }
+  std::size_t readings = 0;
+  std::size_t left_out = 0;
+  for (const auto& experiment : fit.experiments) {
+    readings += experiment->rows().size();
+    left_out += experiment->test().record.notes.size();
+  }
+  page.fact("Data", fmt::format("{} tests, {} readings compared, {} rows left out", fit.experiments.size(),
+                                readings, left_out));
+  page.table(parameter_table(result.estimates, "Parameters.", Meanings::shown));
+  add_oedometer_section(page, study, fit);
   return page;
 }
 

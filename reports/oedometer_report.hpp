@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The report of fit-oedometer.
 #pragma once
 
@@ -11,9 +11,9 @@ namespace isotach::reports {
 [[nodiscard]] Page oedometer_report(const RunInfo& run, const datasets::Study& study,
                                     const calibration::OedometerFit& fit);
 
-/// The verdicts and facts of its summary, for the summary of a page.
-void add_oedometer_summary(Page& page, const datasets::Study& study, const calibration::OedometerFit& fit);
-/// Its sections.
-void add_oedometer_sections(Page& page, const datasets::Study& study, const calibration::OedometerFit& fit);
+/// Its verdicts but those on parameters, for the summary of a page.
+void add_oedometer_verdicts(Page& page, const calibration::OedometerFit& fit);
+/// Its section: curves, residuals, uncertainty, search, gauge and data.
+void add_oedometer_section(Page& page, const datasets::Study& study, const calibration::OedometerFit& fit);
 
 }  // namespace isotach::reports

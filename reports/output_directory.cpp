@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Staging and publishing of results; text, JSON and CSV files.
 #include "reports/output_directory.hpp"
 

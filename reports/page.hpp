@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // A report as one self-contained HTML page: a summary, then sections of text, tables and figures.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The mustache templates and the style sheet of report pages.
 #pragma once
 
@@ -49,7 +49,8 @@ th { font-weight: bold; vertical-align: bottom; border-top: 1.5px solid var(--in
 td { vertical-align: top; border-bottom: 1px solid var(--rule); }
 tbody tr:last-child td { border-bottom: 1.5px solid var(--ink); }
 th, td { padding: 4px 8px; text-align: left; }
-th:first-child, td:first-child { padding-left: 0; } th:last-child, td:last-child { padding-right: 0; }
+th:first-child, td:first-child { padding-left: 0; }
+td:first-child { white-space: nowrap; } th:last-child, td:last-child { padding-right: 0; }
 .right { text-align: right; } td.right { white-space: nowrap; } .centre { text-align: center; }
 .notes { margin: 6px 0 0; color: var(--quiet); font-size: 13px; }
 .figures { margin: 20px 0 24px; }

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Writing of [material] so that the same doubles are read back.
 #include "reports/parameters_toml.hpp"
 

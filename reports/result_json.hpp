@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // result.json of every command, as values.
 #pragma once
 
@@ -18,29 +18,23 @@ namespace isotach::reports {
 // "version", "status", "seconds", "warnings"; status is "ok".
 
 /// `isotach fit-oedometer`.
-[[nodiscard]] nlohmann::ordered_json
-result_json(const RunInfo &run, const datasets::Study &study,
-            const calibration::OedometerFit &fit);
+[[nodiscard]] nlohmann::ordered_json result_json(const RunInfo& run, const datasets::Study& study,
+                                                 const calibration::OedometerFit& fit);
 /// `isotach fit-slump`.
-[[nodiscard]] nlohmann::ordered_json
-result_json(const RunInfo &run, const datasets::Study &study,
-            const calibration::SlumpFit &fit);
+[[nodiscard]] nlohmann::ordered_json result_json(const RunInfo& run, const datasets::Study& study,
+                                                 const calibration::SlumpFit& fit);
 /// `isotach calibrate`: "fit_oedometer" and "fit_slump" are what those commands
 /// write, without head. "parameters" has each parameter from the fit that moved
 /// it.
-[[nodiscard]] nlohmann::ordered_json
-result_json(const RunInfo &run, const datasets::Study &study,
-            const calibration::Calibration &calibration);
+[[nodiscard]] nlohmann::ordered_json result_json(const RunInfo& run, const datasets::Study& study,
+                                                 const calibration::Calibration& calibration);
 /// `isotach slump`.
-[[nodiscard]] nlohmann::ordered_json
-result_json(const RunInfo &run, const datasets::SlumpFile &test,
-            const mpm::SlumpResult &result);
+[[nodiscard]] nlohmann::ordered_json result_json(const RunInfo& run, const datasets::SlumpFile& test,
+                                                 const mpm::SlumpResult& result);
 
 /// A run that the numerics ended: status "failed" (or "interrupted") and
 /// "failure": what, and where known when and where ("time_s", "r_mm", "z_mm").
-[[nodiscard]] nlohmann::ordered_json
-failure_json(const RunInfo &run, const calibration::FitFailure &failure);
-[[nodiscard]] nlohmann::ordered_json
-failure_json(const RunInfo &run, const mpm::SlumpFailure &failure);
+[[nodiscard]] nlohmann::ordered_json failure_json(const RunInfo& run, const calibration::FitFailure& failure);
+[[nodiscard]] nlohmann::ordered_json failure_json(const RunInfo& run, const mpm::SlumpFailure& failure);
 
-} // namespace isotach::reports
+}  // namespace isotach::reports

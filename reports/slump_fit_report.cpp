@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Outlines measured and simulated, and tables of a slump fit.
 #include "reports/slump_fit_report.hpp"
 
@@ -52,14 +52,13 @@ Figure outline_figure(const calibration::TestSummary& summary, const SlumpCompar
     }
     Series simulated = outline_series(comparison.simulation.outlines[k], time_label(outlines[k].time));
     simulated.colour = palette_colour(colour++);
-    figure.series.push_back(std::move(measured));
     figure.series.push_back(std::move(simulated));
+    figure.series.push_back(std::move(measured));
   }
   return figure;
 }
 
 void add_outlines(Page& page, const SlumpFit& fit) {
-  page.section("Slump: outlines measured and simulated");
   page.paragraph(
       "The distance of a measured point is the shortest one to the simulated outline of the same time, "
       "positive where the simulated mud reaches beyond the measured surface.");
@@ -75,8 +74,8 @@ void add_outlines(Page& page, const SlumpFit& fit) {
 Table test_table(const datasets::Study& study, const SlumpFit& fit) {
   using enum Alignment;
   Table table{.caption = "Slump tests: root mean square distance between outlines.",
-              .header = {"Test", "Data", "Use", "Points", "All times (mm)", "Rim gone (mm)",
-                         "Mean, rim gone (mm)", "rms / noise"},
+              .header = {"Test", "Data", "Use", "Points", "All times (mm)", "Rim gone (mm)", "Bias (mm)",
+                         "rms / noise"},
               .alignment = {left, left, left, right, right, right, right, right}};
   for (std::size_t i = 0; i < fit.comparisons.size(); ++i) {
     const SlumpComparison& comparison = fit.comparisons[i];
@@ -95,7 +94,8 @@ Table test_table(const datasets::Study& study, const SlumpFit& fit) {
                           format_number(summary.rms_over_noise, 3)});
   }
   table.notes = {
-      fmt::format("All tests together, from when the rim had left the mud: {} mm. The mean is positive "
+      fmt::format("All tests together, from when the rim had left the mud: {} mm. Bias: mean signed distance "
+                  "from then on, positive "
                   "where the simulated mud reaches too far.",
                   millimetres(fit.rms_mould_gone))};
   return table;
@@ -121,29 +121,30 @@ std::string C_1_sentence(const SlumpFit& fit) {
 
 }  // namespace
 
-void add_slump_fit_summary(Page& page, const datasets::Study& study, const SlumpFit& fit) {
+void add_slump_fit_verdicts(Page& page, const SlumpFit& fit) {
   const calibration::FitResult& result = fit.result;
   add_adequacy_verdict(page, result, "slump tests");
-  add_held_out_verdict(page, result);
-  add_parameter_verdicts(page, result);
   if (is_free(result, ParameterId::C_1)) page.verdict(Tone::plain, C_1_sentence(fit));
   add_warnings(page, result.warnings);
+}
+
+void add_slump_fit_facts(Page& page, const SlumpFit& fit) {
   const double cell_size = fit.comparisons.empty() ? 0.0 : fit.comparisons.front().simulation.cell_size;
-  page.fact("Distance between outlines",
-            fmt::format("{} mm (root mean square, all tests, held out ones included, "
-                        "from when the rim had left the mud)",
-                        millimetres(fit.rms_mould_gone)));
-  page.fact("Slump data", fmt::format("{} tests ({})", fit.comparisons.size(), input_name(study.file)));
+  page.fact(
+      "Distance between outlines",
+      fmt::format("{} mm root mean square from when the rim had left the mud, all {} tests, held-out ones "
+                  "included",
+                  millimetres(fit.rms_mould_gone), fit.comparisons.size()));
   page.fact("Simulations", fmt::format("{} by the material point method, cells of {} mm", fit.simulations,
                                        millimetres(cell_size)));
 }
 
-void add_slump_fit_sections(Page& page, const datasets::Study& study, const SlumpFit& fit) {
+void add_slump_fit_section(Page& page, const datasets::Study& study, const SlumpFit& fit) {
   const calibration::FitResult& result = fit.result;
+  page.section("Slump tests");
   add_outlines(page, fit);
   page.table(test_table(study, fit));
 
-  page.section("Slump: uncertainty and convergence");
   if (Table correlation = correlation_table(result); !correlation.rows.empty())
     page.table(std::move(correlation));
   page.paragraph(fmt::format(
@@ -161,7 +162,6 @@ void add_slump_fit_sections(Page& page, const datasets::Study& study, const Slum
   for (; i + 1 < figures.size(); i += 2) page.figures(std::move(figures[i]), std::move(figures[i + 1]));
   page.table(route_table(result));
 
-  page.section("Slump: simulations");
   const std::vector<NamedRun> runs = runs_of(fit);
   if (!runs.empty()) page.paragraph(numerics_text(runs.front()));
   page.table(start_table(runs));
@@ -172,10 +172,12 @@ void add_slump_fit_sections(Page& page, const datasets::Study& study, const Slum
 
 Page slump_fit_report(const RunInfo& run, const datasets::Study& study, const SlumpFit& fit) {
   Page page("Slump fit", subtitle(run));
-  add_slump_fit_summary(page, study, fit);
+  add_slump_fit_verdicts(page, fit);
+  add_parameter_verdicts(page, fit.result.estimates);
   add_warnings(page, run.warnings);
-  page.table(parameter_table(fit.result.estimates, "Parameters."));
-  add_slump_fit_sections(page, study, fit);
+  add_slump_fit_facts(page, fit);
+  page.table(parameter_table(fit.result.estimates, "Parameters.", Meanings::shown));
+  add_slump_fit_section(page, study, fit);
   return page;
 }
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The report of fit-slump.
 #pragma once
 
@@ -11,9 +11,11 @@ namespace isotach::reports {
 [[nodiscard]] Page slump_fit_report(const RunInfo& run, const datasets::Study& study,
                                     const calibration::SlumpFit& fit);
 
-/// The verdicts and facts of its summary, for the summary of a page.
-void add_slump_fit_summary(Page& page, const datasets::Study& study, const calibration::SlumpFit& fit);
-/// Its sections.
-void add_slump_fit_sections(Page& page, const datasets::Study& study, const calibration::SlumpFit& fit);
+/// Its verdicts but those on parameters, for the summary of a page.
+void add_slump_fit_verdicts(Page& page, const calibration::SlumpFit& fit);
+/// The facts of its summary.
+void add_slump_fit_facts(Page& page, const calibration::SlumpFit& fit);
+/// Its section: outlines, uncertainty, search and simulations.
+void add_slump_fit_section(Page& page, const datasets::Study& study, const calibration::SlumpFit& fit);
 
 }  // namespace isotach::reports

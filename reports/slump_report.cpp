@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Outlines, histories and budgets of one simulated slump.
 #include "reports/slump_report.hpp"
 
@@ -164,7 +164,6 @@ void add_summary(Page& page, const datasets::SlumpFile& test, const SlumpResult&
                              "least pressure, as where the skeleton has lost contact.",
                              result.floored, format_number(result.particle_steps, 3)));
   }
-  page.fact("Test", input_name(test.file));
   page.fact("Mould", fmt::format("diameter {} mm, fill {} mm, raised at {} m/s, {} wall",
                                  format_number(kMillimetres * test.setup.mould.diameter, 3),
                                  format_number(kMillimetres * test.setup.mould.fill_height, 3),

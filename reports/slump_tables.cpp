@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Tables and figures of simulated slumps.
 #include "reports/slump_tables.hpp"
 
@@ -17,10 +17,10 @@ std::string percent(double ratio) {
   return format_number(kPercent * ratio, 2);
 }
 
-/// A share of all point updates, or none.
+/// A count of point updates as a share of all.
 std::string share_of_updates(long count, const mpm::SlumpResult& result) {
   if (count == 0) return "0";
-  return fmt::format("{} ({} %)", count, percent(static_cast<double>(count) / result.particle_steps));
+  return fmt::format("{} %", percent(static_cast<double>(count) / result.particle_steps));
 }
 
 }  // namespace
@@ -57,11 +57,10 @@ Table start_table(std::span<const NamedRun> runs) {
 
 Table budget_table(std::span<const NamedRun> runs) {
   using enum Alignment;
-  Table table{
-      .caption = "Budgets of volume and energy.",
-      .header = {"Run", "Volume error (%)", "Outline volume error (%)", "Energy error (%)", "Points", "Steps",
-                 "Updates with substeps", "Updates set to the least pressure", "Largest inertia factor"},
-      .alignment = {left, right, right, right, right, right, right, right, right}};
+  Table table{.caption = "Budgets of volume and energy.",
+              .header = {"Run", "Volume (%)", "Outline volume (%)", "Energy (%)", "Points", "Steps",
+                         "Substepped", "Floored", "Inertia factor"},
+              .alignment = {left, right, right, right, right, right, right, right, right}};
   for (const NamedRun& run : runs) {
     const mpm::SlumpResult& result = *run.result;
     table.rows.push_back({run.name, percent(result.volume_error), percent(result.outline_volume_error),
@@ -71,11 +70,15 @@ Table budget_table(std::span<const NamedRun> runs) {
                           format_number(largest_inertia_scaling(result), 3)});
   }
   table.notes = {
-      "Each error is the largest of the run. Volume: of the material points; outline volume: inside the "
+      "The errors are the largest of the run. Volume: of the material points; outline volume: inside the "
       "traced "
       "outlines, against the first. Energy: |E_kin + E_pot + stress work + boundary work − E_0| over the "
       "potential "
-      "energy at the start."};
+      "energy at the start.",
+      "Substepped: point updates whose stress needed substeps. Floored: point updates that left the domain "
+      "of the law "
+      "and were set to its least pressure, as where the skeleton has lost contact. Inertia factor: the "
+      "largest used."};
   return table;
 }
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // What the reports of simulated slumps share: how a run was set up, and how well it kept its books.
 #pragma once
 

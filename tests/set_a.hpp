@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // What the tests of the law and its integration share: parameter set A of the reference numbers, states and
 // rates given compression positive in kPa, and p and q.
 #pragma once

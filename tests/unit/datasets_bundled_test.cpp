@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The bundled studies and slump files: all of them are read, and hold what their sources state.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // CsvTable: the forms of delimited text it takes, and what it refuses.
 #include <gtest/gtest.h>
 

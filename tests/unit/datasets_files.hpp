@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Helpers of the datasets tests: files in a folder of their own, and the message of the error that reading
 // one gives.
 #pragma once

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // read_oedometer: columns, units, rows left out, and stages recorded or deduced.
 #include <gtest/gtest.h>
 

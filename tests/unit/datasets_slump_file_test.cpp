@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // read_slump_file: values in SI, what is assumed, and mistakes named with their line.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // read_study: values in SI, what is assumed, and every kind of mistake named with its
 // line.
 #include <gtest/gtest.h>

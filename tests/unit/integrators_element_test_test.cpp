@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Element tests: rows, times and strains along stages, and where a failure is reported.
 #include <gtest/gtest.h>
 

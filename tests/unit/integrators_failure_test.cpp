@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Integration failures are results: their kind, time and last state, for both integrators.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Adaptive extrapolated Euler: its order, how its error follows the tolerance, and its substep control.
 #include <gtest/gtest.h>
 

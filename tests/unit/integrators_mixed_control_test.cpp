@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Mixed control: strain rates found for prescribed stress rates, their derivatives, and prescribed stresses
 // kept.
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Sensitivities carried through Fellin-Ostermann by Jets, against finite differences of CVODE.
 #include <gtest/gtest.h>
 

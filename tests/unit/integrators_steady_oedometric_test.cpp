@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Steady oedometric compression: against the law itself, long integrations, and finite differences.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Exact derivatives of the law by ceres::Jet against central finite differences, and where they could break.
 #include <gtest/gtest.h>
 

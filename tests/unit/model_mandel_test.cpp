@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Mandel vectors: the laws their conversions obey, against Eigen's 3x3 algebra.
 #include <gtest/gtest.h>
 

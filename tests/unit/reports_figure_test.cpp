@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Tests of figures: where curves lie in the SVG, and that it can stand in a page.
 #include <gtest/gtest.h>
 #include <stdlib.h>

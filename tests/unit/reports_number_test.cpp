@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Tests of numbers as text; the expected strings are rounded by hand.
 #include <gtest/gtest.h>
 

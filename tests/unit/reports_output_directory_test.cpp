@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Tests of the atomic publishing of results.
 #include <gtest/gtest.h>
 #include <stdlib.h>

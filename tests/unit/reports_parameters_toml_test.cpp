@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Tests of parameters.toml: a study reads back exactly what was fitted.
 #include <gtest/gtest.h>
 

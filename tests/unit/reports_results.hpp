@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Real results for the tests of reports, small enough to be made in seconds: fits of parts of mud-a on coarse
 // cells, and a short slump.
 #pragma once

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Both integrators against closed-form solutions of the law.
 //
 // Tolerance: the closed forms are exact, so what is seen is the integrators' global error: measured at most

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Fellin-Ostermann and CVODE against each other, point by point along element tests.
 //
 // Tolerance: CVODE runs at 1e-12, so the difference is Fellin-Ostermann's global error. At tolerance 1e-9

@@ -1,4 +1,4 @@
-// Copyright Isotach contributors. SPDX-License-Identifier: Apache-2.0
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Both integrators against the table of set A: numbers computed outside the project, by an independent
 // implementation (implicit Radau, rtol 1e-11).
 //
