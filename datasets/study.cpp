@@ -188,9 +188,11 @@ Study read_study(const std::filesystem::path& file, const ReadOptions& options) 
     static_cast<void>(root.has(section));
   }
   refuse_effects(root);
+  std::string note;
+  if (root.has("note")) note = root.text("note");
   root.reject_unknown_keys();
 
-  Study study{file, read_material(root.table("material")), {}, {}, {}, {}};
+  Study study{file, std::move(note), read_material(root.table("material")), {}, {}, {}, {}};
   study.fit = read_fit(root, study.material);
   static_cast<void>(read_numerics(root));  // checked also where no slump test uses it
   std::set<std::string> names;

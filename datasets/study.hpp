@@ -81,6 +81,7 @@ struct SlumpTest {
 /// A whole study.
 struct Study {
   std::filesystem::path file;
+  std::string note{};  ///< what a reader must know of the data, in the author's words; reports show it
   model::Parameters<double> material;
   FitSettings fit;
   std::vector<OedometerTest> oedometer_tests;

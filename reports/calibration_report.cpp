@@ -110,12 +110,21 @@ Page calibration_report(const RunInfo& run, const datasets::Study& study, const 
   add_slump_fit_verdicts(page, calibration.slump);
   add_parameter_verdicts(page, estimates);
   add_warnings(page, run.warnings);
+  add_data_note(page, study);
   add_slump_fit_facts(page, calibration.slump);
   page.table(parameter_table(estimates, "Parameters, each from the fit that moved it.", Meanings::left_out));
 
   page.section("The chain of fits");
   page.table(round_table(calibration));
   add_consistency(page, calibration);
+  page.table(parameter_table(calibration.slump_alone.result.estimates,
+                             "What the slump tests alone say, from the first slump fit.",
+                             Meanings::left_out));
+  page.paragraph(
+      "In undrained flow at the critical state C_1 only scales the rate, by (1 - C_1): outlines hardly see "
+      "it. A "
+      "parameter that the oedometer moves too, other than I_v, is therefore the oedometer's in the later "
+      "rounds.");
   page.paragraph("Verdicts on parameters. " + std::string(kVerdictNote));
   page.paragraph(
       "Below follow the last fits of the chain; the searches they show are those of the last round.");

@@ -288,4 +288,8 @@ std::string bulleted(const std::vector<std::string>& lines) {
   return text;
 }
 
+void add_data_note(Page& page, const datasets::Study& study) {
+  if (!study.note.empty()) page.fact("About the data", study.note);
+}
+
 }  // namespace isotach::reports

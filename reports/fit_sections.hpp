@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibration/fit_result.hpp"
+#include "datasets/study.hpp"
 #include "reports/page.hpp"
 #include "reports/run_info.hpp"
 
@@ -62,5 +63,8 @@ enum class Meanings { shown, left_out };
 
 /// Parts of a sentence as a list: "a, b and c".
 [[nodiscard]] std::string listed(const std::vector<std::string>& parts);
+
+/// What the study says of its data, as a line of the summary; nothing where it says nothing.
+void add_data_note(Page& page, const datasets::Study& study);
 
 }  // namespace isotach::reports

@@ -219,6 +219,7 @@ Page oedometer_report(const RunInfo& run, const datasets::Study& study, const Oe
   add_oedometer_verdicts(page, fit);
   add_parameter_verdicts(page, result.estimates);
   add_warnings(page, run.warnings);
+  add_data_note(page, study);
   page.fact("Gauge", gauge_sentence(result));
   if (result.check) {
     page.fact("Independent check", fmt::format("{} ends {} standard errors from {}", result.check->route,

@@ -175,6 +175,7 @@ Page slump_fit_report(const RunInfo& run, const datasets::Study& study, const Sl
   add_slump_fit_verdicts(page, fit);
   add_parameter_verdicts(page, fit.result.estimates);
   add_warnings(page, run.warnings);
+  add_data_note(page, study);
   add_slump_fit_facts(page, fit);
   page.table(parameter_table(fit.result.estimates, "Parameters.", Meanings::shown));
   add_slump_fit_section(page, study, fit);

@@ -1,0 +1,60 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// What the program says of itself: its commands and their options, and its version.
+#include <set>
+#include <sstream>
+
+#include "tests/consumer/consumer_test.hpp"
+
+namespace isotach::consumer {
+namespace {
+
+const std::set<std::string> kCommands{"calibrate", "fit-oedometer", "fit-slump", "slump"};
+
+class Help : public ConsumerTest {};
+
+TEST_F(Help, ListsTheCommandsThereAreAndNoOther) {
+  const Ended ended = run({"--help"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.err, "");
+  const std::size_t heading = ended.out.find("Subcommands:\n");
+  ASSERT_NE(heading, std::string::npos) << ended.out;
+  std::istringstream lines(ended.out.substr(heading));
+  std::string line;
+  std::getline(lines, line);
+  std::set<std::string> listed;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string name;
+    // a description that goes on is indented further
+    if (line.starts_with("  ") && !line.starts_with("   ") && words >> name) listed.insert(name);
+  }
+  EXPECT_EQ(listed, kCommands);
+}
+
+TEST_F(Help, OfEachCommandNamesItsInputAndTheCommonOptions) {
+  for (const std::string& command : kCommands) {
+    const Ended ended = run({command, "--help"});
+    EXPECT_EQ(ended.code, 0) << command;
+    EXPECT_EQ(ended.err, "") << command;
+    const std::string input = command == "slump" ? " TEST" : " STUDY";
+    for (const std::string& part :
+         {input, std::string("--out"), std::string("--threads"), std::string("--quiet"),
+          std::string("--max-file-mb"), std::string("--help")}) {
+      EXPECT_NE(ended.out.find(part), std::string::npos) << command << ": no " << part;
+    }
+  }
+}
+
+TEST_F(Help, VersionIsThreeNumbers) {
+  const Ended ended = run({"--version"});
+  EXPECT_EQ(ended.code, 0);
+  int major = -1;
+  int minor = -1;
+  int patch = -1;
+  char newline = 0;
+  ASSERT_EQ(std::sscanf(ended.out.c_str(), "%d.%d.%d%c", &major, &minor, &patch, &newline), 4) << ended.out;
+  EXPECT_EQ(newline, '\n');
+}
+
+}  // namespace
+}  // namespace isotach::consumer

@@ -1,0 +1,112 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// The wall's force on a material point, by hand.
+#include <gtest/gtest.h>
+
+#include "mpm/mould_contact.hpp"
+
+namespace isotach::mpm {
+namespace {
+
+constexpr double kRadius = 0.039;          // m
+constexpr double kSize = 0.002;            // m
+constexpr double kStiffness = 5e7;         // Pa/m
+constexpr double kDamping = 4e3;           // Pa s/m
+constexpr double kLift = 0.06;             // m/s
+constexpr double kMass = 1e-4;             // kg/rad
+constexpr double kStep = 1e-4;             // s
+constexpr double kArea = kRadius * kSize;  // of the wall a point covers, per radian
+
+MouldContact contact(Wall wall) {
+  return MouldContact({2.0 * kRadius, 0.14, kLift, wall}, kSize, kStiffness, kDamping);
+}
+
+/// A point, resting unless said otherwise, with its outer edge `depth` beyond the wall.
+struct Point {
+  double depth = 0.0;
+  double z = 0.05;
+  double velocity_r = 0.0;
+  double velocity_z = 0.0;
+  double pressure = 1000.0;
+  double initial_pressure = 0.0;
+  double rim = 0.0;
+};
+
+WallForce force(const Point& p, Wall wall = Wall::smooth) {
+  return contact(wall).force(kRadius - 0.5 * kSize + p.depth, p.z, p.velocity_r, p.velocity_z, kMass,
+                             p.pressure, p.initial_pressure, p.rim, kStep);
+}
+
+TEST(MouldContact, RimRisesAtTheLiftSpeed) {
+  EXPECT_DOUBLE_EQ(contact(Wall::smooth).rim(0.0), 0.0);
+  EXPECT_DOUBLE_EQ(contact(Wall::smooth).rim(2.5), 0.15);
+}
+
+TEST(MouldContact, PointShortOfTheWallFeelsNothing) {
+  for (const Wall wall : {Wall::smooth, Wall::rough}) {
+    const WallForce f = force({.depth = -1e-6, .velocity_r = 0.1, .velocity_z = -0.1}, wall);
+    EXPECT_EQ(f.r, 0.0);
+    EXPECT_EQ(f.z, 0.0);
+  }
+}
+
+TEST(MouldContact, PenetrationIsAnsweredByStiffnessAndDamping) {
+  // 1e-5 m at 5e7 Pa/m is 500 Pa; 0.01 m/s at 4e3 Pa s/m is 40 Pa
+  EXPECT_NEAR(force({.depth = 1e-5}).r, -500.0 * kArea, 1e-9 * kArea * 500.0);
+  EXPECT_NEAR(force({.depth = 1e-5, .velocity_r = 0.01}).r, -540.0 * kArea, 1e-9 * kArea * 540.0);
+  EXPECT_NEAR(force({.depth = 1e-5, .velocity_r = -0.01}).r, -460.0 * kArea, 1e-9 * kArea * 460.0);
+}
+
+TEST(MouldContact, WallNeverPulls) {
+  EXPECT_EQ(force({.depth = 1e-5, .velocity_r = -1.0}).r, 0.0);
+  // the rim half way up a point whose radial stress is tension
+  EXPECT_EQ(force({.depth = 1e-5, .z = 0.05, .pressure = -300.0, .rim = 0.05}).r, 0.0);
+}
+
+TEST(MouldContact, FilledMouldIsCarriedWithoutBeingPushed) {
+  EXPECT_NEAR(force({.depth = 0.0, .initial_pressure = 1200.0}).r, -1200.0 * kArea, 1e-3 * kArea);
+}
+
+TEST(MouldContact, RimPastPartOfAPointLeavesItsShareOfThePressure) {
+  // covered: from the rim up to z + size/2
+  EXPECT_NEAR(force({.depth = 1e-4, .z = 0.05, .rim = 0.05}).r, -0.5 * 1000.0 * kArea, 1e-9 * kArea * 1000.0);
+  EXPECT_NEAR(force({.depth = 1e-4, .z = 0.05, .rim = 0.0505}).r, -0.25 * 1000.0 * kArea,
+              1e-9 * kArea * 1000.0);
+  // a lightly pressed wall gives no more than its stiffness: 1e-6 m at 5e7 Pa/m is 50 Pa
+  EXPECT_NEAR(force({.depth = 1e-6, .z = 0.05, .rim = 0.05}).r, -50.0 * kArea, 1e-6 * kArea * 50.0);
+}
+
+TEST(MouldContact, SupportEndsContinuouslyAsTheRimPasses) {
+  const double just_covered = force({.depth = 1e-4, .rim = 0.051 - 1e-9}).r;
+  EXPECT_LT(just_covered, 0.0);
+  EXPECT_GT(just_covered, -1e-3 * kArea);
+  EXPECT_EQ(force({.depth = 1e-4, .rim = 0.051 + 1e-9}).r, 0.0);
+}
+
+TEST(MouldContact, PointThatLeftBelowTheRimStandsOutsideFree) {
+  for (const Wall wall : {Wall::smooth, Wall::rough}) {
+    const WallForce f = force({.depth = 1.1 * kSize, .z = 0.05, .rim = 0.0}, wall);
+    EXPECT_EQ(f.r, 0.0);
+    EXPECT_EQ(f.z, 0.0);
+  }
+}
+
+TEST(MouldContact, OnlyARoughWallDragsAndNeverPastItsOwnSpeed) {
+  EXPECT_EQ(force({.depth = 1e-5}, Wall::smooth).z, 0.0);
+  const double up = force({.depth = 1e-5, .velocity_z = -0.02}, Wall::rough).z;
+  EXPECT_GT(up, 0.0);
+  EXPECT_LT(up * kStep / kMass, kLift + 0.02);
+  const double down = force({.depth = 1e-5, .velocity_z = 0.1}, Wall::rough).z;
+  EXPECT_LT(down, 0.0);
+  EXPECT_GT(down * kStep / kMass, kLift - 0.1);
+  EXPECT_EQ(force({.depth = 1e-5, .velocity_z = kLift}, Wall::rough).z, 0.0);
+}
+
+TEST(MouldContact, DragIsSharedUnderTheRimToo) {
+  const Point whole{.depth = 1e-5, .rim = 0.0};
+  const Point half{.depth = 1e-5, .rim = 0.05};
+  EXPECT_NEAR(force(half, Wall::rough).z, 0.5 * force(whole, Wall::rough).z,
+              1e-9 * force(whole, Wall::rough).z);
+}
+
+}  // namespace
+}  // namespace isotach::mpm
