@@ -39,8 +39,8 @@ int guarded(const std::function<int()>& body) {
   }
 }
 
-int end_failed(reports::OutputDirectory& output, const nlohmann::ordered_json& result, const std::string& message,
-               bool interrupted) {
+int end_failed(reports::OutputDirectory& output, const nlohmann::ordered_json& result,
+               const std::string& message, bool interrupted) {
   if (interrupted) {
     fmt::print(stderr, "isotach: interrupted; nothing was written\n");
     return kInterrupted;

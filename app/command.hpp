@@ -38,12 +38,12 @@ class Run {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Calls `body` and turns exceptions into messages on stderr and exit codes: errors of input and of the output
-/// folder 2, anything else 3.
+/// Calls `body` and turns exceptions into messages on stderr and exit codes: errors of input and of the
+/// output folder 2, anything else 3.
 [[nodiscard]] int guarded(const std::function<int()>& body);
 
-/// Ends a run that failed: interrupted, it leaves nothing behind and returns 130; else it publishes `result` as
-/// result.json and returns 3.
+/// Ends a run that failed: interrupted, it leaves nothing behind and returns 130; else it publishes `result`
+/// as result.json and returns 3.
 [[nodiscard]] int end_failed(reports::OutputDirectory& output, const nlohmann::ordered_json& result,
                              const std::string& message, bool interrupted);
 

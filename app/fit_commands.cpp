@@ -28,9 +28,11 @@ void require_fitted(const datasets::Study& study, const Tests& tests, const char
                              "at least one test to fit");
 }
 
-void require_parameters(const datasets::Study& study, const std::vector<model::ParameterId>& list, const char* key) {
+void require_parameters(const datasets::Study& study, const std::vector<model::ParameterId>& list,
+                        const char* key) {
   if (list.empty()) {
-    throw datasets::InputError(datasets::FilePlace{study.file}, key, "an empty list", "at least one parameter to fit");
+    throw datasets::InputError(datasets::FilePlace{study.file}, key, "an empty list",
+                               "at least one parameter to fit");
   }
 }
 
@@ -109,7 +111,9 @@ int calibrate(const CommonOptions& options) {
   calibration::CalibrateOptions calibrate_options;
   calibrate_options.threads = options.threads;
   calibrate_options.stop = &interrupted();
-  calibrate_options.progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); };
+  calibrate_options.progress = [&](double fraction, const std::string& what) {
+    progress.update(fraction, what);
+  };
   const auto result = calibration::calibrate(study, calibrate_options);
   if (!result) return failed(output, run, result.error());
   progress.finish();

@@ -22,6 +22,8 @@ void watch_interrupts() {
   std::signal(SIGTERM, on_signal);
 }
 
-const std::atomic<bool>& interrupted() { return stop; }
+const std::atomic<bool>& interrupted() {
+  return stop;
+}
 
 }  // namespace isotach::app

@@ -23,7 +23,8 @@ constexpr Command kCommands[] = {
      isotach::app::calibrate},
     {"fit-oedometer", "STUDY", "e100, lambda, kappa, D_r (and more, as the study says) from oedometer tests",
      isotach::app::fit_oedometer},
-    {"fit-slump", "STUDY", "I_v and C_1 (as the study says) from measured slump outlines", isotach::app::fit_slump},
+    {"fit-slump", "STUDY", "I_v and C_1 (as the study says) from measured slump outlines",
+     isotach::app::fit_slump},
     {"slump", "TEST", "one slump test by the material point method", isotach::app::slump},
 };
 
@@ -38,7 +39,8 @@ int main(int argc, char** argv) {
   for (const Command& command : kCommands) {
     CLI::App* sub = app.add_subcommand(command.name, command.description);
     sub->add_option(command.input, options.input, "a TOML file")->required();
-    sub->add_option("--out", options.out, "folder for the results, created with its parents")->capture_default_str();
+    sub->add_option("--out", options.out, "folder for the results, created with its parents")
+        ->capture_default_str();
     sub->add_option("--threads", options.threads, "simulations run at once")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

@@ -73,6 +73,15 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
   if (!result.main.converged) {
     result.warnings.push_back("Ceres did not converge: " + result.main.termination);
   }
+  for (std::size_t k = 0; k < result.free.size(); ++k) {
+    constexpr double kAtBound = 1e-9;
+    const double x = result.main.coordinates[k];
+    if (x - parametrisation.lower()[k] < kAtBound || parametrisation.upper()[k] - x < kAtBound) {
+      result.warnings.push_back(fmt::format(
+          "{} ends at a bound: the other parameters may have stopped short of their best values there",
+          model::info(result.free[k]).name));
+    }
+  }
   auto uncertainty = estimate_uncertainty(problem, result.main.coordinates, Correlation::independent);
   if (!uncertainty) return tl::unexpected(FitFailure{uncertainty.error().message});
   result.uncertainty = std::move(*uncertainty);

@@ -42,7 +42,8 @@ tl::expected<Linearisation, PredictionFailure> Experiment::linearise(
     }
     for (Eigen::Index row = 0; row < rows; ++row) {
       const auto i = static_cast<std::size_t>(row);
-      result.jacobian(row, static_cast<Eigen::Index>(k)) = width > 0.0 ? (ends[1][i] - ends[0][i]) / width : 0.0;
+      result.jacobian(row, static_cast<Eigen::Index>(k)) =
+          width > 0.0 ? (ends[1][i] - ends[0][i]) / width : 0.0;
     }
   }
   return result;

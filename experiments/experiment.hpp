@@ -1,5 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// What calibration, discovery and reports know of a test: values measured, their noise, and what a model predicts.
+// What calibration, discovery and reports know of a test: values measured, their noise, and what a model
+// predicts.
 #pragma once
 
 #include <Eigen/Core>

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kIntegrationTolerance = 1e-6;  // relative; far below any reading's noise
 
-/// Largest |d ln sigma/d strain| of a stage as its ends show it: what a strain reading's noise does to ln sigma.
+/// Largest |d ln sigma/d strain| of a stage as its ends show it: what a strain reading's noise does to ln
+/// sigma.
 std::vector<double> stage_slopes(const datasets::OedometerRecord& record,
                                  std::span<const datasets::OedometerRow> rows) {
   std::vector<double> slopes(rows.size(), 0.0);
@@ -103,9 +104,9 @@ tl::expected<std::vector<S>, PredictionFailure> OedometerExperiment::predict_log
     const auto increment = integrators::strain_increment<S>(strain_rate, steps_[i].duration);
     auto result = integrators::integrate_fellin_ostermann(law, state, increment, tolerance, substep);
     if (!result) {
-      return tl::unexpected(PredictionFailure{
-          fmt::format("{}: between time {:.6g} s and {:.6g} s (line {}): {}", test_.name,
-                      rows()[i].time - steps_[i].duration, rows()[i].time, rows()[i].line, result.error().message())});
+      return tl::unexpected(PredictionFailure{fmt::format(
+          "{}: between time {:.6g} s and {:.6g} s (line {}): {}", test_.name,
+          rows()[i].time - steps_[i].duration, rows()[i].time, rows()[i].line, result.error().message())});
     }
     state = result->state;
     substep = result->next_substep;

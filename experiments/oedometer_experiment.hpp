@@ -1,5 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// A strain-driven oedometer test: the measured strain history goes in, ln of axial effective stress comes out.
+// A strain-driven oedometer test: the measured strain history goes in, ln of axial effective stress comes
+// out.
 #pragma once
 
 #include <optional>
@@ -51,13 +52,14 @@ class OedometerExperiment final : public Experiment {
   [[nodiscard]] const std::vector<StrainStep>& steps() const { return steps_; }
   /// Void ratio at each of rows(), from the strains that drive the model.
   [[nodiscard]] const Values& void_ratios() const { return void_ratios_; }
-  /// Axial strain rate (1/s, logarithmic, > 0) of the first loading stage, from its ends; nothing where the test has
-  /// no loading.
+  /// Axial strain rate (1/s, logarithmic, > 0) of the first loading stage, from its ends; nothing where the
+  /// test has no loading.
   [[nodiscard]] std::optional<double> first_loading_rate() const;
 
  private:
   template <class S>
-  tl::expected<std::vector<S>, PredictionFailure> predict_log_stress(const model::Parameters<S>& parameters) const;
+  tl::expected<std::vector<S>, PredictionFailure> predict_log_stress(
+      const model::Parameters<S>& parameters) const;
 
   datasets::OedometerTest test_;
   OedometerStart start_{};

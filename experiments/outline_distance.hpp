@@ -8,8 +8,9 @@
 
 namespace isotach::experiments {
 
-/// Shortest distance (m) from the point to the polyline, positive where the polyline, which runs from the toe to the
-/// axis, has the point on its left: the simulated mud then reaches beyond the measured surface.
-[[nodiscard]] double signed_distance(const mpm::OutlinePoint& point, std::span<const mpm::OutlinePoint> polyline);
+/// Shortest distance (m) from the point to the polyline, positive where the polyline, which runs from the toe
+/// to the axis, has the point on its left: the simulated mud then reaches beyond the measured surface.
+[[nodiscard]] double signed_distance(const mpm::OutlinePoint& point,
+                                     std::span<const mpm::OutlinePoint> polyline);
 
 }  // namespace isotach::experiments

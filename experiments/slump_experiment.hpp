@@ -10,8 +10,8 @@
 
 namespace isotach::experiments {
 
-/// The value of each measured point is its signed distance to the simulated outline of the same time (m); what is
-/// "measured" is therefore zero.
+/// The value of each measured point is its signed distance to the simulated outline of the same time (m);
+/// what is "measured" is therefore zero.
 class SlumpExperiment final : public Experiment {
  public:
   /// `stop` may be null; once true, simulations end early.

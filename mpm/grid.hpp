@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -24,8 +25,8 @@ class Grid {
   /// A grid of at least `radius` by `height` (m).
   Grid(double cell_size, double radius, double height)
       : h_(cell_size),
-        columns_(static_cast<int>(radius / cell_size) + 3),
-        rows_(static_cast<int>(height / cell_size) + 3),
+        columns_(static_cast<int>(std::ceil(radius / cell_size)) + 3),
+        rows_(static_cast<int>(std::ceil(height / cell_size)) + 3),
         nodes_(static_cast<std::size_t>(columns_ * rows_)),
         velocities_(nodes_.size()),
         corner_values_(nodes_.size()),

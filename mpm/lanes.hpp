@@ -12,7 +12,8 @@
 
 namespace isotach::mpm {
 
-/// A pack of doubles with the arithmetic of one. exp and log are Eigen's packet functions (about 1 ulp).
+/// A pack of doubles with the arithmetic of one. exp, log and sqrt are Eigen's packet functions (within 2
+/// ulp).
 struct Lanes {
   using Packet = Eigen::internal::packet_traits<double>::type;
   static constexpr std::size_t kCount = sizeof(Packet) / sizeof(double);
