@@ -14,7 +14,7 @@ namespace {
 
 // Rounds stop when parameters move by less than simulations can tell.
 constexpr double kStandingStill = 0.01;  // of ln I_v and of the other positive parameters
-constexpr double kStandingStillC1 = 0.02;
+constexpr double kStandingStillFromZero = 0.02;
 constexpr int kFirstEvaluations = 30;
 constexpr int kLaterEvaluations = 10;
 constexpr double kLaterStep = 0.04;
@@ -24,8 +24,8 @@ double largest_move(const model::Parameters<double>& a, const model::Parameters<
   for (const auto& parameter : model::kParameterTable) {
     const double before = a[parameter.id];
     const double after = b[parameter.id];
-    const double move = parameter.id == model::ParameterId::C_1
-                            ? std::abs(after - before) * (kStandingStill / kStandingStillC1)
+    const double move = model::may_be_zero(parameter.id)
+                            ? std::abs(after - before) * (kStandingStill / kStandingStillFromZero)
                             : std::abs(std::log(after / before));
     largest = std::max(largest, move);
   }

@@ -24,6 +24,10 @@ datasets::Bounds default_bounds(model::ParameterId id) {
       return {3.0 * std::numbers::pi / 180.0, 50.0 * std::numbers::pi / 180.0};
     case C_1:
       return {0.0, 0.7};
+    case C_2:
+      return {0.0, 1000.0};
+    case C_3:
+      return {0.0, 0.95};
   }
   return {0.0, 0.0};
 }

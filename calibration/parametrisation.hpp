@@ -39,7 +39,7 @@ class Parametrisation {
   [[nodiscard]] const std::vector<double>& lower() const { return lower_; }
   [[nodiscard]] const std::vector<double>& upper() const { return upper_; }
   /// Whether coordinate k is the logarithm of its parameter.
-  [[nodiscard]] bool logarithmic(std::size_t k) const { return free_[k] != model::ParameterId::C_1; }
+  [[nodiscard]] bool logarithmic(std::size_t k) const { return !model::may_be_zero(free_[k]); }
 
   /// The parameters at coordinates x (size of free()). Fails where they are not admissible together.
   template <class S>

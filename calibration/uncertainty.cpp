@@ -32,9 +32,9 @@ double autocorrelation(const Eigen::VectorXd& residuals, const Experiments& expe
 
 Verdict judge(model::ParameterId id, const ParameterEstimate& estimate, bool at_bound, double range) {
   const double half_width = 0.5 * (estimate.ci95_upper - estimate.ci95_lower);
-  // C_1 may be zero: it is judged against the range it can have at all
+  // a parameter that may be zero is judged against the range it can have at all
   const double relative =
-      id == model::ParameterId::C_1 ? half_width / (0.4 * range) : half_width / std::abs(estimate.value);
+      model::may_be_zero(id) ? half_width / (0.4 * range) : half_width / std::abs(estimate.value);
   if (!(relative <= kWeak)) return Verdict::undetermined;
   if (relative > kIdentified || at_bound) return Verdict::weak;
   return Verdict::identified;

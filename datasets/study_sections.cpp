@@ -24,14 +24,10 @@ constexpr Range kLength_mm = Range::positive(10000.0);
 model::Parameters<double> read_material(TomlTable material) {
   model::ParameterValues<double> values;
   for (const ParameterInfo& parameter : model::kParameterTable) {
-    values[parameter.id] = parameter.to_si * material.number(parameter.key, range_of(parameter));
-  }
-  for (const std::string_view key : {"C_2", "C_3"}) {
-    const double value = material.number_if(key, {}).value_or(0.0);
-    if (value != 0.0) {
-      throw material.error(key, fmt::format("{} is out of range", value),
-                           "0, as there is no anisotropic form yet");
-    }
+    const double value = parameter.optional
+                             ? material.number_if(parameter.key, range_of(parameter)).value_or(0.0)
+                             : material.number(parameter.key, range_of(parameter));
+    values[parameter.id] = parameter.to_si * value;
   }
   constexpr std::array<std::string_view, 2> kLode{"matsuoka-nakai", "none"};
   values.lode = material.choice_if("lode_dependence", kLode).value_or(0) == 0

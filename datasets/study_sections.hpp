@@ -24,8 +24,8 @@ class Assumptions {
   std::vector<std::string>* texts_;  // owned by the caller
 };
 
-/// [material]: all parameters of model::kParameterTable by their keys, lode_dependence ("matsuoka-nakai" or
-/// "none"), and C_2, C_3, which may only be 0: the law has no anisotropic form.
+/// [material]: all parameters of model::kParameterTable by their keys (C_2, C_3 optional, 0), lode_dependence
+/// ("matsuoka-nakai" or "none", optional).
 [[nodiscard]] model::Parameters<double> read_material(TomlTable material);
 
 /// InputError where the file has an [effects] table with anything in it: none of them can be simulated.

@@ -11,8 +11,8 @@ namespace {
 // Steps large against the noise of a simulation and small against the range of a parameter.
 double difference_step(model::ParameterId id, double value) {
   constexpr double kRelative = 0.03;
-  constexpr double kLeastC1 = 0.02;  // C_1 may be zero
-  return id == model::ParameterId::C_1 ? std::max(kLeastC1, kRelative * value) : kRelative * value;
+  constexpr double kLeast = 0.02;  // of a parameter that may be zero
+  return model::may_be_zero(id) ? std::max(kLeast, kRelative * value) : kRelative * value;
 }
 
 }  // namespace

@@ -34,6 +34,19 @@ template <class S, int N>
   return a[0] + a[1] + a[2];
 }
 
+/// Double contraction a : b. Component by component, as everything that the law does with double: a store by
+/// components that is soon after read as a vector, as Eigen's dot() does, stalls the processor.
+template <class S, int N>
+[[nodiscard]] S contraction(const Mandel<S, N>& a, const Mandel<S, N>& b) {
+  S even = a[0] * b[0];
+  S odd = a[1] * b[1];
+  for (int i = 2; i < N; i += 2) {
+    even += a[i] * b[i];
+    odd += a[i + 1] * b[i + 1];
+  }
+  return even + odd;
+}
+
 /// a - tr(a)/3 1.
 template <class S, int N>
 [[nodiscard]] Mandel<S, N> deviator(const Mandel<S, N>& a) {

@@ -17,8 +17,8 @@
 
 namespace isotach::model {
 
-enum class ParameterId : std::size_t { e100, lambda, kappa, I_v, D_r, phi_c, C_1 };
-inline constexpr std::size_t kParameterCount = 7;
+enum class ParameterId : std::size_t { e100, lambda, kappa, I_v, D_r, phi_c, C_1, C_2, C_3 };
+inline constexpr std::size_t kParameterCount = 9;
 
 /// What one material parameter is. Bounds are in `unit`; the lower one is excluded where `lower_open`,
 /// the upper one always is (an infinite one thus asks for a finite value).
@@ -31,7 +31,8 @@ struct ParameterInfo {
   double lower;
   double upper;
   bool lower_open;
-  double to_si;  ///< factor from `unit` to SI
+  double to_si;           ///< factor from `unit` to SI
+  bool optional = false;  ///< zero where a [material] table does not name it
 };
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -50,10 +51,20 @@ inline constexpr std::array<ParameterInfo, kParameterCount> kParameterTable{{
     {ParameterId::phi_c, "phi_c", "phi_c_deg", "deg", "critical state friction angle", 0.0, 90.0, true,
      std::numbers::pi / 180.0},
     {ParameterId::C_1, "C_1", "C_1", "-", "hypoplastic strain factor", 0.0, 1.0, false, 1.0},
+    {ParameterId::C_2, "C_2", "C_2", "-", "rate at which viscous strain rotates the ellipse", 0.0, kInfinity,
+     false, 1.0, true},
+    // from 1 on, Omega = C_3 T*/p would leave no ellipse through the critical state
+    {ParameterId::C_3, "C_3", "C_3", "-", "steady Omega over the stress ratio T*/p", 0.0, 1.0, false, 1.0,
+     true},
 }};
 
 [[nodiscard]] constexpr const ParameterInfo& info(ParameterId id) {
   return kParameterTable[static_cast<std::size_t>(id)];
+}
+
+/// Whether the parameter may be zero, so that its logarithm is no coordinate for it.
+[[nodiscard]] constexpr bool may_be_zero(ParameterId id) {
+  return !info(id).lower_open;
 }
 
 /// The parameter of that name, if there is one.
@@ -118,6 +129,10 @@ class Parameters {
   [[nodiscard]] const S& D_r() const { return values_[ParameterId::D_r]; }
   [[nodiscard]] const S& phi_c() const { return values_[ParameterId::phi_c]; }
   [[nodiscard]] const S& C_1() const { return values_[ParameterId::C_1]; }
+  [[nodiscard]] const S& C_2() const { return values_[ParameterId::C_2]; }
+  [[nodiscard]] const S& C_3() const { return values_[ParameterId::C_3]; }
+  /// Whether Omega changes: where not, a state whose Omega is zero keeps it.
+  [[nodiscard]] bool rotates() const { return !is_exactly_zero(C_2()); }
   [[nodiscard]] LodeDependence lode() const { return values_.lode; }
   [[nodiscard]] const ParameterValues<S>& values() const { return values_; }
 

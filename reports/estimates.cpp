@@ -24,11 +24,11 @@ calibration::ParameterEstimate in_key_unit(const calibration::ParameterEstimate&
 }
 
 double parameter_of_coordinate(model::ParameterId id, double coordinate) {
-  return in_key_unit(id, id == model::ParameterId::C_1 ? coordinate : std::exp(coordinate));
+  return in_key_unit(id, model::may_be_zero(id) ? coordinate : std::exp(coordinate));
 }
 
 std::string coordinate_name(model::ParameterId id) {
-  return (id == model::ParameterId::C_1 ? "" : "ln ") + std::string(model::info(id).name);
+  return (model::may_be_zero(id) ? "" : "ln ") + std::string(model::info(id).name);
 }
 
 bool is_free(const calibration::FitResult& result, model::ParameterId id) {

@@ -198,7 +198,13 @@ TEST_F(StudyFile, AParameterOutOfRangeNamesKeyValueRangeFileAndLine) {
                  {"study.toml:4: key kappa in [material]: 0.2 is out of range", "< lambda = 0.154"});
   expect_refused("C_1 = 0.03", "C_1 = 0.95", {"study.toml:8: key C_1", "0.95", "1 - kappa/lambda"});
   expect_refused("I_v = 0.02", "I_v = nan", {"study.toml:5: key I_v", "nan is out of range"});
-  expect_refused("C_1 = 0.03", "C_1 = 0.03\nC_2 = 0.5", {"study.toml:9: key C_2", "0.5", "anisotropic"});
+  expect_refused("C_1 = 0.03", "C_1 = 0.03\nC_2 = -0.5", {"study.toml:9: key C_2", "-0.5", ">= 0"});
+  expect_refused("C_1 = 0.03", "C_1 = 0.03\nC_3 = 1.0",
+                 {"study.toml:9: key C_3", "1 is out of range", "< 1"});
+  const auto rotating = read_changed("C_1 = 0.03", "C_1 = 0.03\nC_2 = 40\nC_3 = 0.5").material;
+  EXPECT_EQ(rotating.C_2(), 40.0);
+  EXPECT_EQ(rotating.C_3(), 0.5);
+  EXPECT_EQ(read_changed("C_1 = 0.03", "C_1 = 0.03").material.C_2(), 0.0);
   EXPECT_EQ(read_changed("C_1 = 0.03", "C_1 = 0.03\nC_2 = 0\nC_3 = 0.0\nlode_dependence = \"none\"")
                 .material.lode(),
             model::LodeDependence::none);

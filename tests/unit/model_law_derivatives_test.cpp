@@ -15,36 +15,44 @@ using tests::set_a_values;
 using tests::stress_kPa;
 using tests::Vector6;
 
-// Inputs: six stresses, e, six strain rates, seven parameters.
-constexpr int kInputs = 6 + 1 + 6 + static_cast<int>(kParameterCount);
+// Inputs: six stresses, e, six strain rates, the parameters, six components of Omega.
+constexpr int kOmega = 6 + 1 + 6 + static_cast<int>(kParameterCount);
+constexpr int kInputs = kOmega + 6;
 using Jet = ceres::Jet<double, kInputs>;
 using Inputs = Eigen::Matrix<double, kInputs, 1>;
-using Outputs = Eigen::Matrix<double, 7, 1>;  // rates of stress and e
+constexpr std::size_t kOutputs = 13;  // rates of stress, e and Omega
 
 template <class S>
-std::array<S, 7> evaluate(const Eigen::Matrix<S, kInputs, 1>& x, LodeDependence lode) {
+std::array<S, kOutputs> evaluate(const Eigen::Matrix<S, kInputs, 1>& x, LodeDependence lode) {
   ParameterValues<S> values;
   values.lode = lode;
   for (std::size_t i = 0; i < kParameterCount; ++i) values.values[i] = x[13 + static_cast<int>(i)];
   const Law<S> law(Parameters<S>::create(values).value());
   const Mandel<S> stress = x.template head<6>();
   const Mandel<S> strain_rate = x.template segment<6>(7);
-  const auto rate = law.template rate<6>({stress, x[6]}, strain_rate);
-  std::array<S, 7> result;
+  const Mandel<S> omega = x.template segment<6>(kOmega);
+  const auto rate = law.rate(State<S>{stress, x[6], omega}, strain_rate);
+  std::array<S, kOutputs> result;
   for (std::size_t i = 0; i < 6; ++i) result[i] = rate.stress[static_cast<int>(i)];
   result[6] = rate.void_ratio;
+  for (std::size_t i = 0; i < 6; ++i) result[7 + i] = rate.omega[static_cast<int>(i)];
   return result;
 }
 
-Inputs inputs(const Vector6& stress, const Vector6& strain_rate, double C_1) {
-  Inputs x;
-  x << stress, 1.4, strain_rate, Eigen::Matrix<double, 7, 1>::Zero();
+/// Set A with C_2 = 30, C_3 = 0.4.
+Inputs inputs(const Vector6& stress, const Vector6& strain_rate, double C_1,
+              const Vector6& omega = Vector6::Zero()) {
+  Inputs x = Inputs::Zero();
+  x.head<13>() << stress, 1.4, strain_rate;
+  x.tail<6>() = omega;
   for (std::size_t i = 0; i < kParameterCount; ++i) x[13 + static_cast<int>(i)] = set_a_values().values[i];
   x[13 + static_cast<int>(ParameterId::C_1)] = C_1;
+  x[13 + static_cast<int>(ParameterId::C_2)] = 30.0;
+  x[13 + static_cast<int>(ParameterId::C_3)] = 0.4;
   return x;
 }
 
-std::array<Jet, 7> with_jets(const Inputs& x, LodeDependence lode) {
+std::array<Jet, kOutputs> with_jets(const Inputs& x, LodeDependence lode) {
   Eigen::Matrix<Jet, kInputs, 1> jets;
   for (int i = 0; i < kInputs; ++i) jets[i] = Jet(x[i], i);
   return evaluate<Jet>(jets, lode);
@@ -55,7 +63,9 @@ double scale(int i) {
   if (i < 6) return 100e3;
   if (i == 6) return 1.0;
   if (i < 13) return 1e-6;
-  return set_a_values().values[static_cast<std::size_t>(i - 13)] + (i == kInputs - 1 ? 0.1 : 0.0);
+  if (i >= kOmega) return 1.0;
+  const double value = set_a_values().values[static_cast<std::size_t>(i - 13)];
+  return value > 0.0 ? value : 0.1;
 }
 
 void expect_jets_match_differences(const Inputs& x, LodeDependence lode) {
@@ -72,7 +82,7 @@ void expect_jets_match_differences(const Inputs& x, LodeDependence lode) {
       return (evaluate<double>(up, lode)[i] - evaluate<double>(down, lode)[i]) / (2.0 * h);
     };
     const double h = 4e-4 * scale(j);
-    for (std::size_t i = 0; i < 7; ++i) {
+    for (std::size_t i = 0; i < kOutputs; ++i) {
       const double numeric = (4.0 * difference(h / 2, i) - difference(h, i)) / 3.0;
       const double out = i < 6 ? size : 1e-6;
       // truncation ~ (20 h)^4 and round-off ~ 1e-16/h, both below 1e-8 in units of output/input
@@ -89,6 +99,16 @@ TEST(LawDerivatives, JetsMatchFiniteDifferencesAtAGeneralState) {
   strain_rate.tail<3>() << 4e-7, 1e-7, -5e-7;
   for (const auto lode : {LodeDependence::matsuoka_nakai, LodeDependence::none}) {
     expect_jets_match_differences(inputs(stress, strain_rate, 0.1), lode);
+  }
+}
+
+TEST(LawDerivatives, JetsMatchFiniteDifferencesWhereTheEllipseIsInclined) {
+  Vector6 stress = stress_kPa(120.0, 80.0, 70.0);
+  stress.tail<3>() << 9e3, -14e3, 6e3;
+  Vector6 omega;
+  omega << -0.2, 0.15, 0.05, 0.1, -0.07, 0.12;
+  for (const auto lode : {LodeDependence::matsuoka_nakai, LodeDependence::none}) {
+    expect_jets_match_differences(inputs(stress, compression_rate(1e-6, -3e-7, 2e-7), 0.1, omega), lode);
   }
 }
 
@@ -122,7 +142,7 @@ TEST(LawDerivatives, GuardOfTheRootsCostsNoAccuracy) {
   // at |T*|/p of 1e-6, 1e-9 and 1e-12 the Lode factor in extension still is 1 - q/(3p), to round-off of 1
   const Law<double> law(Parameters<double>::create(set_a_values()).value());
   for (const double q : {1e-4, 1e-7, 1e-10}) {  // kPa at p = 100 kPa
-    const auto at = law.measures<6>(stress_kPa(100.0 - 2 * q / 3, 100.0 + q / 3, 100.0 + q / 3));
+    const auto at = law.measures(stress_kPa(100.0 - 2 * q / 3, 100.0 + q / 3, 100.0 + q / 3));
     EXPECT_NEAR(at.F, 1.0 - q / 300.0, 4e-16);
   }
   // |D| down to 1e-30 /s: the hypoplastic part is still C_1 |D|, seen where creep is nil
@@ -130,8 +150,8 @@ TEST(LawDerivatives, GuardOfTheRootsCostsNoAccuracy) {
   values[ParameterId::C_1] = 0.5;
   const Law<double> hypoplastic(Parameters<double>::create(values).value());
   for (const double r : {1e-6, 1e-30}) {
-    const auto rate =
-        hypoplastic.rate<6>({stress_kPa(100.0, 100.0, 100.0), 0.01}, compression_rate(r / 3, r / 3, r / 3));
+    const auto rate = hypoplastic.rate(tests::State{stress_kPa(100.0, 100.0, 100.0), 0.01},
+                                       compression_rate(r / 3, r / 3, r / 3));
     EXPECT_NEAR(-rate.stress[0] / r / (100e3 / 0.02), 0.5, 1e-14);
   }
 }
