@@ -12,7 +12,7 @@ namespace isotach::experiments {
 
 namespace {
 
-constexpr double kIntegrationTolerance = 1e-6;  // relative; far below any reading's noise
+constexpr double kIntegrationTolerance = 4e-6;  // relative; far below any reading's noise
 
 /// Largest |d ln sigma/d strain| of a stage as its ends show it: what a strain reading's noise does to ln
 /// sigma.

@@ -2,10 +2,26 @@
 // Names of the integrators, and the choice between them.
 #include "integrators/integrate.hpp"
 
+#include <algorithm>
+
 namespace isotach::integrators {
 
 std::string_view name(Method method) {
-  return method == Method::fellin_ostermann ? "fellin-ostermann" : "cvode";
+  switch (method) {
+    case Method::fellin_ostermann:
+      return "fellin-ostermann";
+    case Method::cvode:
+      return "cvode";
+    case Method::rosenbrock:
+      return "rosenbrock";
+  }
+  return "unknown";
+}
+
+std::optional<Method> find_method(std::string_view wanted) {
+  const auto* found = std::ranges::find(kMethods, wanted, [](Method method) { return name(method); });
+  if (found == kMethods.end()) return std::nullopt;
+  return *found;
 }
 
 tl::expected<Integrated<double>, Failure> integrate(const model::Law<double>& law,
@@ -17,6 +33,8 @@ tl::expected<Integrated<double>, Failure> integrate(const model::Law<double>& la
       return integrate_fellin_ostermann(law, state, increment, options.fellin_ostermann);
     case Method::cvode:
       return integrate_cvode(law, state, increment, options.cvode);
+    case Method::rosenbrock:
+      return integrate_rosenbrock(law, state, increment, options.rosenbrock);
   }
   return tl::unexpected(Failure{FailureKind::solver, 0.0, state});
 }

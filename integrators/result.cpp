@@ -11,13 +11,14 @@ namespace {
 const char* describe(FailureKind kind) {
   switch (kind) {
     case FailureKind::outside_domain:
-      return "the state is outside the law's domain (p > 0, q < 3p, e > 0, free strain rates solvable)";
+      return "the state is outside the law's domain (p > 0, q < 3p, e > 0, (3/2) Omega:Omega < M^2, free "
+             "strain rates solvable)";
     case FailureKind::substep_underflow:
       return "substeps became too small to advance time";
     case FailureKind::too_many_substeps:
       return "the limit of substeps was reached";
     case FailureKind::solver:
-      return "the CVODE solver gave up";
+      return "the reference solver gave up";
   }
   return "unknown failure";
 }
@@ -29,6 +30,9 @@ std::string Failure::message() const {
   std::string text =
       fmt::format("integration failed {:.6g} s into the increment, at p = {:.6g} kPa, e = {:.6g}: {}", time,
                   p / 1e3, last_state.void_ratio, describe(kind));
+  if (statistics.accepted + statistics.rejected > 0) {
+    text += fmt::format(" ({} substeps accepted, {} rejected)", statistics.accepted, statistics.rejected);
+  }
   if (kind == FailureKind::solver) text += fmt::format(" (flag {})", solver_flag);
   return text;
 }

@@ -15,36 +15,38 @@ enum class FailureKind {
   solver              ///< the reference solver gave up
 };
 
+/// What an integration cost.
+struct Statistics {
+  long accepted = 0;     ///< substeps
+  long rejected = 0;     ///< substeps
+  long evaluations = 0;  ///< of the rate
+  long jacobians = 0;    ///< of the rate, where the method needs them
+
+  Statistics& operator+=(const Statistics& other) {
+    accepted += other.accepted;
+    rejected += other.rejected;
+    evaluations += other.evaluations;
+    jacobians += other.jacobians;
+    return *this;
+  }
+};
+
 /// A failed integration. The caller's state is unchanged.
 struct Failure {
   FailureKind kind;
   double time;                      ///< s from the start of the increment
   model::State<double> last_state;  ///< last accepted state
-  int solver_flag = 0;              ///< CVODE's return flag, where kind is solver
+  Statistics statistics{};          ///< up to the failure
+  int solver_flag = 0;              ///< CVODES' return flag, where kind is solver
 
   [[nodiscard]] std::string message() const;
 };
 
-/// Plain values of a state.
-template <class S, int N>
-[[nodiscard]] model::State<double, N> plain(const model::State<S, N>& state) {
-  model::State<double, N> result;
-  for (int i = 0; i < N; ++i) result.stress[i] = model::value_of(state.stress[i]);
-  result.void_ratio = model::value_of(state.void_ratio);
-  return result;
-}
-
-struct Statistics {
-  long accepted = 0;     ///< substeps
-  long rejected = 0;     ///< substeps
-  long evaluations = 0;  ///< of the rate
-};
-
 /// Result of an increment.
-template <class S>
+template <class S, model::Fabric K = model::Fabric::omega>
 struct Integrated {
-  model::State<S> state;    ///< at the end
-  model::Mandel<S> strain;  ///< strain increment (-), time integral of the strain rate
+  model::State<S, model::kGeneral, K> state;  ///< at the end
+  model::Mandel<S> strain;                    ///< strain increment (-), time integral of the strain rate
   double next_substep =
       0.0;  ///< s, a good first substep for an increment that goes on likewise; 0: not known
   Statistics statistics;

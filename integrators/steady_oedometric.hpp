@@ -13,7 +13,8 @@
 
 namespace isotach::integrators {
 
-/// Steady oedometric compression: every stress grows in proportion to p_B, so that K0 and OCR stay constant.
+/// Steady oedometric compression: every stress grows in proportion to p_B, so that K0 and OCR stay constant,
+/// and so does Omega, at C_3 T*/p (at zero where C_2 = 0).
 template <class S>
 struct SteadyOedometric {
   S K0;            ///< lateral to axial effective stress (-), in (0, 1)
@@ -34,13 +35,18 @@ struct SteadyTrial {
 /// (E:T) = w T. So with x = sigma_a/(lambda w), below kappa/lambda, the axial condition is m_a y = x - 1, the
 /// lateral m_r y = x K0. As |m_a| < 1, the axial one gives y > 1 - kappa/lambda > C_1, hence |D_vis| > 0. The
 /// residual m_r y - x K0 is positive at K0 = 0 and negative where m_r = 0, hence a steady state always
-/// exists.
+/// exists where Omega = 0.
 template <class S>
 [[nodiscard]] SteadyTrial<S> steady_trial(const model::Law<S>& law, const S& K0) {
   model::Mandel<S, model::kPlane> stress;  // 1 = axial, sigma_a = 1 Pa
   stress << S(-1.0), -K0, -K0, S(0.0);
-  const auto at = law.template measures<model::kPlane>(stress);
-  const S w = -law.template stiffness_times<model::kPlane>(at, stress)[0];
+  model::State<S, model::kPlane> state{stress, S(0.0)};
+  if (law.parameters().rotates()) {
+    // steady: T*/p stays, viscous flow goes on, so that Omega has reached C_3 T*/p
+    state.omega = law.measures(stress).ratio * law.parameters().C_3();
+  }
+  const auto at = law.measures(state);
+  const S w = -law.stiffness_times(at, stress)[0];
   const S x = S(1.0) / (law.parameters().lambda() * w);
   const S y = (x - S(1.0)) / at.m[0];
   return {y, at.m[1] * y - x * K0};
@@ -66,14 +72,17 @@ template <class S>
                                       axial_strain_rate));
   }
 
-  // m_r > 0 where q/p is beyond the positive root of (q/p)^2 + 3 q/p = M^2
+  // With Omega = C T*/p, m_r > 0 where q/p is beyond the positive root of (q/p)^2 + 3 (1 - C) q/p = M^2, and
+  // the ellipse exists where C q/p < M.
   const model::Law<Jet> plain_law(parameters.template cast<Jet>());
   const double M = model::value_of(plain_law.critical_ratio());
-  const double ratio = 0.5 * (std::sqrt(9.0 + 4.0 * M * M) - 3.0);
-  double low = 0.0;
-  double high = (3.0 - ratio) / (3.0 + 2.0 * ratio);
+  const double C = parameters.rotates() ? model::value_of(parameters.C_3()) : 0.0;
+  const auto K0_at = [](double q_over_p) { return (3.0 - q_over_p) / (3.0 + 2.0 * q_over_p); };
+  double low = 3.0 * C < M ? 0.0 : K0_at(M / C);
+  double high = K0_at(0.5 * (std::sqrt(9.0 * (1.0 - C) * (1.0 - C) + 4.0 * M * M) - 3.0 * (1.0 - C)));
   double K0 = 0.5 * (low + high);
   double slope = 0.0;
+  constexpr double kSmallResidual = 1e-8;  // a root, not an end of the bracket
   bool converged = false;
   for (int iteration = 0; iteration < kMaxIterations && !converged; ++iteration) {
     const Jet residual = detail::steady_trial(plain_law, Jet(K0, 0)).residual;
@@ -81,7 +90,7 @@ template <class S>
     slope = residual.v[0];
     double next = K0 - residual.a / slope;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    converged = std::abs(next - K0) <= kTolerance * K0;
+    converged = std::abs(next - K0) <= kTolerance * K0 && std::abs(residual.a) <= kSmallResidual;
     K0 = next;
   }
   if (!converged) return tl::unexpected(fmt::format("no steady K0 found; last tried {:.6g}", K0));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "integrators/integrate.hpp"
 
@@ -73,9 +74,17 @@ inline integrators::Options tight(integrators::Method method) {
   integrators::Options options;
   options.method = method;
   options.fellin_ostermann.relative = 1e-10;
+  options.rosenbrock.relative = 1e-12;
   options.cvode.relative = 1e-12;
   options.cvode.absolute_stress = 1e-8;
   return options;
+}
+
+/// The method's name as one of a test: letters only.
+inline std::string test_name(integrators::Method method) {
+  std::string text(integrators::name(method));
+  std::erase(text, '-');
+  return text;
 }
 
 }  // namespace isotach::tests

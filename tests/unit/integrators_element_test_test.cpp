@@ -1,8 +1,12 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// Element tests: rows, times and strains along stages, and where a failure is reported.
+// Element tests: rows, times, targets and strains along stages, what rows cost, and where a failure is
+// reported. The physics of whole tests is in verification/checks_element_tests_test.cpp.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "integrators/element_test.hpp"
 #include "tests/set_a.hpp"
@@ -76,9 +80,89 @@ TEST(ElementTest, NoStagesGiveTheStartAndZeroDurationRepeatsIt) {
   EXPECT_EQ(still->back().time, 0.0);
 }
 
-TEST(ElementTest, FailureSaysStageAndTimeAndKeepsTheRowsBefore) {
+TEST(ElementTest, TimesOfManyStagesAreRightToRoundOff) {
+  const std::vector<Stage> stages(1000, stage(kLoad, 0.1, 1));
+  const auto rows = run_element_test(Law(set_a()), kStart, stages);
+  ASSERT_TRUE(rows);
+  // 0.1 is not a binary fraction: a plain sum of a thousand of them is off by 1.4e-12
+  EXPECT_DOUBLE_EQ(rows->back().time, 100.0);
+}
+
+TEST(ElementTest, AFirstRowSpacesTheRowsByAConstantFactor) {
+  Stage hold = stage(Vector6::Zero(), 1e6, 6);
+  hold.first_row = 10.0;
+  const auto rows = run_element_test(Law(set_a()), kStart, {stage(kLoad, 1e3, 1), hold});
+  ASSERT_TRUE(rows);
+  ASSERT_EQ(rows->size(), 8U);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR((*rows)[static_cast<std::size_t>(2 + i)].time, 1e3 + std::pow(10.0, 1.0 + i), 1e-8);
+  }
+}
+
+TEST(ElementTest, TargetsAreReachedAtTheEndOfTheStageByEveryMethod) {
+  const Law law(set_a(0.1));
+  Stage second = stage(Vector6::Zero(), 2e4, 5);
+  second.increment.stress_controlled[0] = true;
+  second.target[0] = -150e3;
+  second.target[1] = -0.002;  // strain since the start of the test
+  second.target[3] = 0.001 * std::numbers::sqrt2;
+  for (const Method method : kMethods) {
+    Options options;  // default tolerances: what is prescribed does not depend on them
+    options.method = method;
+    const auto rows =
+        run_element_test(law, kStart, {stage(compression_rate(1e-6, 1e-6, 0.0), 1e3, 2), second}, options);
+    ASSERT_TRUE(rows) << name(method) << ": " << rows.error().failure.message();
+    const ElementRow& begin = (*rows)[2];
+    for (std::size_t i = 3; i <= 7; ++i) {
+      const ElementRow& row = (*rows)[i];
+      const double part = static_cast<double>(i - 2) / 5.0;  // linear in time
+      EXPECT_NEAR(row.state.stress[0], begin.state.stress[0] + part * (-150e3 - begin.state.stress[0]),
+                  1e-9 * 150e3)
+          << name(method);
+      EXPECT_NEAR(row.strain[1], -0.001 - 0.001 * part, 1e-13) << name(method);
+      EXPECT_NEAR(row.strain[3], 0.001 * std::numbers::sqrt2 * part, 1e-13) << name(method);
+    }
+  }
+}
+
+TEST(ElementTest, RowsCostNoMoreThanTheStepsTheyCut) {
   const Law law(set_a());
   for (const Method method : {Method::fellin_ostermann, Method::cvode}) {
+    auto options = tests::tight(method);
+    options.fellin_ostermann.relative = 1e-8;
+    const auto cost = [&](int rows) {
+      return run_element_test(law, kStart, {stage(kLoad, 1e5, rows)}, options)
+          .value()
+          .back()
+          .statistics.evaluations;
+    };
+    // each row ends one step early, of two evaluations with Fellin-Ostermann, and of none with CVODE
+    EXPECT_LE(cost(100), cost(1) + 2 * 100) << name(method);
+    EXPECT_GT(cost(1), 100) << name(method);
+  }
+}
+
+TEST(ElementTest, StopsBeforeTheNextRowAndTellsOfEachRow) {
+  const Law law(set_a());
+  std::atomic<bool> stop = false;
+  std::vector<double> times;
+  ElementWatch watch;
+  watch.stop = &stop;
+  watch.progress = [&](double time) {
+    times.push_back(time);
+    stop = time >= 2e3;
+  };
+  const auto rows = run_element_test(law, kStart, {stage(kLoad, 1e4, 10)}, {}, watch);
+  ASSERT_FALSE(rows);
+  EXPECT_TRUE(rows.error().interrupted);
+  EXPECT_EQ(times, (std::vector{0.0, 1e3, 2e3}));
+  EXPECT_EQ(rows.error().rows.size(), 3U);
+  EXPECT_EQ(rows.error().time, 2e3);
+}
+
+TEST(ElementTest, FailureSaysStageAndTimeAndKeepsTheRowsBefore) {
+  const Law law(set_a());
+  for (const Method method : kMethods) {
     Options options;
     options.method = method;
     const State start{stress_kPa(100.0, 100.0, 100.0), 0.2};
@@ -118,6 +202,21 @@ TEST(ElementTest, RowsAndDurationOutOfRangeAreInputErrorsThatNameTheStage) {
       EXPECT_NE(std::string(error.what()).find("stage \"shear\""), std::string::npos);
     }
   }
+}
+
+TEST(ElementTest, FirstRowsAndTargetsOutOfRangeAreInputErrors) {
+  const Law law(set_a());
+  Stage first_row = stage(kLoad, 1e3, 3);
+  for (const double bad : {-1.0, 1e3, 2e3, std::nan("")}) {
+    first_row.first_row = bad;
+    EXPECT_THROW((void)run_element_test(law, kStart, {first_row}), std::invalid_argument) << bad;
+  }
+  Stage timeless = stage(kLoad, 0.0, 1);
+  timeless.target[0] = 0.1;
+  EXPECT_THROW((void)run_element_test(law, kStart, {timeless}), std::invalid_argument);
+  Stage infinite = stage(kLoad, 1e3, 1);
+  infinite.target[0] = HUGE_VAL;
+  EXPECT_THROW((void)run_element_test(law, kStart, {infinite}), std::invalid_argument);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(LoadingRate, FindsTheStrainRateWhoseStressRateIsPrescribed) {
     Increment<double> increment;
     increment.spin << 1e-6 * uniform(generator), 1e-6 * uniform(generator), 1e-6 * uniform(generator);
     const Vector6 stress_rate =
-        law.rate<6>(state, strain_rate).stress + model::corotation<double, 6>(stress, increment.spin);
+        law.rate(state, strain_rate).stress + model::corotation<double, 6>(stress, increment.spin);
     for (int i = 0; i < 6; ++i) {
       const bool by_stress = ((controlled >> i) & 1) != 0;
       increment.stress_controlled[static_cast<std::size_t>(i)] = by_stress;
@@ -108,7 +108,7 @@ TEST(LoadingRate, DerivativesOfPrescribedStressRatesVanishToRoundOffFromAnyStart
     ASSERT_TRUE(loading(state, rate));
     model::Mandel<Jet> held = loading.strain_rate();
     for (int i = 0; i < 6; ++i) held[i].v.setZero();
-    const auto at_held_strain_rate = law.rate<6>(state, held);
+    const auto at_held_strain_rate = law.rate(state, held);
     for (int i = 1; i < 6; ++i) {
       for (int j = 0; j < 7; ++j) {
         EXPECT_NEAR(rate.stress[i].v[j], 0.0,
@@ -119,11 +119,8 @@ TEST(LoadingRate, DerivativesOfPrescribedStressRatesVanishToRoundOffFromAnyStart
 }
 
 class MixedControl : public testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(BothIntegrators, MixedControl,
-                         testing::Values(Method::fellin_ostermann, Method::cvode), [](const auto& method) {
-                           return method.param == Method::cvode ? std::string("Cvode")
-                                                                : std::string("FellinOstermann");
-                         });
+INSTANTIATE_TEST_SUITE_P(EveryIntegrator, MixedControl, testing::ValuesIn(kMethods),
+                         [](const auto& method) { return tests::test_name(method.param); });
 
 TEST_P(MixedControl, ReachesThePrescribedStressesAndStrains) {
   const Law law(set_a(0.1));

@@ -24,7 +24,7 @@ constexpr double kRate = 1e-6;  // 1/s
 /// A state on the steady branch at void ratio e: OCR = (|D_vis|/D_r)^(-I_v) sets its size.
 State on_branch(const Law& law, const SteadyOedometric<double>& steady, double e) {
   const Vector6 shape = stress_kPa(1.0, steady.K0, steady.K0);
-  const double equivalent = law.measures<6>(shape).equivalent_pressure;
+  const double equivalent = law.measures(shape).equivalent_pressure;
   const double ocr = std::pow(steady.viscous_rate / law.parameters().D_r(), -law.parameters().I_v());
   return {shape * (law.preconsolidation_pressure(e) / (ocr * equivalent)), e};
 }
@@ -48,10 +48,10 @@ TEST(SteadyOedometric, StressesGrowAsPreconsolidationPressure) {
           EXPECT_GT(steady->viscous_rate, 0.0);
           const State state = on_branch(law, *steady, 1.2);
           const Vector6 strain_rate = compression_rate(kRate, 0.0, 0.0);
-          const auto rate = law.rate<6>(state, strain_rate);
+          const auto rate = law.rate(state, strain_rate);
           // E : D and E : (D_vis + D_Hp) cancel but for a small part, so round-off is measured by the former;
           // the power 1/I_v of a pressure ratio, by way of logarithms near 11, makes some 200 epsilons of it
-          const double terms = law.stiffness_times<6>(law.measures<6>(state.stress), strain_rate).norm();
+          const double terms = law.stiffness_times(law.measures(state.stress), strain_rate).norm();
           EXPECT_LE((rate.stress - state.stress * (kRate / 0.1)).norm(), 1e-13 * terms)
               << phi_deg << " deg, kappa " << kappa << ", C_1 " << values[ParameterId::C_1];
         }

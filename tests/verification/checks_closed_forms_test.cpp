@@ -1,5 +1,5 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// Both integrators against closed-form solutions of the law.
+// Every integrator against closed-form solutions of the law.
 //
 // Tolerance: the closed forms are exact, so what is seen is the integrators' global error: measured at most
 // 5e-10 for Fellin-Ostermann at 1e-10 and 1e-10 for CVODE at 1e-12; 2e-9 leaves a factor of four.
@@ -41,11 +41,8 @@ class ClosedForm : public testing::TestWithParam<Method> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(BothIntegrators, ClosedForm,
-                         testing::Values(Method::fellin_ostermann, Method::cvode), [](const auto& method) {
-                           return method.param == Method::cvode ? std::string("Cvode")
-                                                                : std::string("FellinOstermann");
-                         });
+INSTANTIATE_TEST_SUITE_P(EveryIntegrator, ClosedForm, testing::ValuesIn(integrators::kMethods),
+                         [](const auto& method) { return tests::test_name(method.param); });
 
 TEST_P(ClosedForm, SteadyIsotropicCompressionStandsAtRateRatioToIv) {
   for (const double C_1 : {0.0, 0.1, 0.5}) {

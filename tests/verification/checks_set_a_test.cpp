@@ -1,5 +1,5 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// Both integrators against the table of set A: numbers computed outside the project, by an independent
+// Every integrator against the table of set A: numbers computed outside the project, by an independent
 // implementation (implicit Radau, rtol 1e-11).
 //
 // Tolerances: the reference was integrated to a relative 1e-11 a step, and its rows carry 7 to 10 digits. A
@@ -33,11 +33,8 @@ class SetA : public testing::TestWithParam<Method> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(BothIntegrators, SetA, testing::Values(Method::fellin_ostermann, Method::cvode),
-                         [](const auto& method) {
-                           return method.param == Method::cvode ? std::string("Cvode")
-                                                                : std::string("FellinOstermann");
-                         });
+INSTANTIATE_TEST_SUITE_P(EveryIntegrator, SetA, testing::ValuesIn(integrators::kMethods),
+                         [](const auto& method) { return tests::test_name(method.param); });
 
 TEST(SetAClosedForm, StiffnessAnisotropyAndCriticalRatioFollowFromFrictionAngle) {
   const Law law(set_a());

@@ -124,7 +124,11 @@ TEST(FitMudAOedometer, WithoutAGaugeTheNullDirectionIsThatOfTheIdentity) {
 // Central differences of steps h and h/2, extrapolated; what is left is the integrator's tolerance over the
 // step.
 TEST(FitMudAOedometer, JetsThroughTheWholePredictionAreItsDerivatives) {
-  const model::Parameters<double>& at = mud_a().material;
+  // with an ellipse that rotates, so that every parameter acts
+  auto rotating = mud_a().material.values();
+  rotating[model::ParameterId::C_2] = 20.0;
+  rotating[model::ParameterId::C_3] = 0.3;
+  const auto at = model::Parameters<double>::create(rotating).value();
   std::vector<model::ParameterId> all;
   for (const auto& parameter : model::kParameterTable) all.push_back(parameter.id);
   for (const auto& test : mud_a().oedometer_tests) {
