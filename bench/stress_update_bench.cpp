@@ -1,87 +1,108 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// Cost of the stress update: one point by the scalar law and integrator, and many points in packs.
+// Cost of the stress update: one point by the scalar law and integrators, with and without its tangent.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-
+#include "bench/slump_point.hpp"
 #include "integrators/integrate.hpp"
-#include "mpm/stress_update.hpp"
+#include "integrators/tangent.hpp"
 
 namespace {
 
 using namespace isotach;
+using model::Fabric;
 
-model::Parameters<double> seed_parameters() {
-  model::ParameterValues<double> values;
-  using enum model::ParameterId;
-  values[e100] = 1.358;
-  values[lambda] = 0.154;
-  values[kappa] = 0.0129;
-  values[I_v] = 0.02;
-  values[D_r] = 6.8e-7;
-  values[phi_c] = 14.2 * std::numbers::pi / 180.0;
-  values[C_1] = 0.03;
-  return *model::Parameters<double>::create(values);
-}
+const char* const kNotOneSubstep = "the increment must be one substep";
 
-constexpr double kVoidRatio = 3.891;
-constexpr double kPressure = 584.0;  // Pa
-constexpr double kRate = 0.1;        // 1/s
-constexpr double kStep = 2e-4;       // s
-
+template <int N, Fabric K>
 void rate_of_one_point(benchmark::State& state) {
-  const model::Law<double> law(seed_parameters());
-  model::State<double> point{model::unit_tensor<double>() * -kPressure, kVoidRatio};
-  point.stress[0] *= 1.2;
-  model::Mandel<double> strain_rate = model::Mandel<double>::Zero();
-  strain_rate[0] = -kRate;
-  strain_rate[1] = kRate;
+  const model::Law<double> law(bench::slump_mud());
+  auto point = bench::slump_state<N, K>();
+  const auto strain_rate = bench::slump_strain_rate<N>();
   for (auto _ : state) {
     benchmark::DoNotOptimize(point);
     benchmark::DoNotOptimize(law.rate(point, strain_rate));
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(rate_of_one_point);
+BENCHMARK(rate_of_one_point<4, Fabric::none>);
+BENCHMARK(rate_of_one_point<6, Fabric::none>);
+BENCHMARK(rate_of_one_point<6, Fabric::omega>);
 
-void increment(benchmark::State& state, integrators::Method method) {
-  const model::Law<double> law(seed_parameters());
-  const model::State<double> point{model::unit_tensor<double>() * -kPressure, kVoidRatio};
-  model::Mandel<double> strain_rate = model::Mandel<double>::Zero();
-  strain_rate[0] = -kRate;
-  strain_rate[1] = kRate;
-  integrators::Options options;
-  options.method = method;
-  const auto loading = integrators::strain_increment<double>(strain_rate, kStep);
-  for (auto _ : state) benchmark::DoNotOptimize(integrators::integrate(law, point, loading, options));
+// What an explicit code asks of one point: two rates, the error estimate, four components.
+void substep_of_one_plane_point(benchmark::State& state) {
+  using State = model::State<double, model::kPlane, Fabric::none>;
+  using Rate = model::StateRate<double, model::kPlane, Fabric::none>;
+  const model::Law<double> law(bench::slump_mud());
+  auto point = bench::slump_state<model::kPlane, Fabric::none>();
+  auto strain_rate = bench::slump_strain_rate<model::kPlane>();
+  const auto tolerance = bench::slump_tolerance();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(point);
+    benchmark::DoNotOptimize(strain_rate);
+    State moved = point;
+    double substep = 0.0;
+    const double norm = model::norm_of<double, model::kPlane>(strain_rate);
+    const auto done = integrators::fellin_ostermann_substeps(
+        moved, bench::kStep, tolerance, substep,
+        [&](const State& y, Rate& f) {
+          if (!law.in_domain(y)) return false;
+          f = law.rate(y, strain_rate, norm);
+          return true;
+        },
+        [&law](const State& y) { return law.in_domain(y); }, [](double) {});
+    if (done->accepted != 1) state.SkipWithError(kNotOneSubstep);
+    benchmark::DoNotOptimize(moved);
+  }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_CAPTURE(increment, fellin_ostermann, integrators::Method::fellin_ostermann);
-BENCHMARK_CAPTURE(increment, cvode, integrators::Method::cvode);
+BENCHMARK(substep_of_one_plane_point);
 
-void stress_update_of_many_points(benchmark::State& state) {
-  const auto count = static_cast<std::size_t>(state.range(0));
-  mpm::Particles particles;
-  particles.count = count;
-  const std::size_t padded = mpm::Particles::padded(count, mpm::Lanes::kCount);
-  particles.for_each_array([padded](std::vector<double>& array) { array.assign(padded, 0.0); });
-  particles.void_ratio.assign(padded, kVoidRatio);
-  for (std::size_t i = 0; i < padded; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(padded);
-    particles.strain_rate[0][i] = kRate * share;
-    particles.strain_rate[1][i] = -kRate * share;
-    particles.strain_rate[3][i] = kRate * (1.0 - share);
-    particles.spin[i] = kRate * share;
-  }
-  const mpm::StressUpdate update(seed_parameters(), 3e-3, 1e-3 * kPressure);
+template <Fabric K>
+void increment_without_tangent(benchmark::State& state) {
+  const model::Law<double> law(bench::slump_mud());
+  auto point = bench::slump_state<model::kGeneral, K>();
+  auto loading =
+      integrators::strain_increment<double>(bench::slump_strain_rate<model::kGeneral>(), bench::kStep);
+  const auto tolerance = bench::slump_tolerance();
   for (auto _ : state) {
-    state.PauseTiming();
-    for (std::size_t k = 0; k < 3; ++k) particles.stress[k].assign(padded, -kPressure);
-    state.ResumeTiming();
-    benchmark::DoNotOptimize(update.update(particles, kStep));
+    benchmark::DoNotOptimize(point);
+    benchmark::DoNotOptimize(loading);
+    const auto done = integrators::integrate_fellin_ostermann(law, point, loading, tolerance);
+    if (done->statistics.accepted != 1) state.SkipWithError(kNotOneSubstep);
+    benchmark::DoNotOptimize(done);
   }
-  state.SetItemsProcessed(state.iterations() * state.range(0));
+  state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(stress_update_of_many_points)->Arg(1440);
+BENCHMARK(increment_without_tangent<Fabric::none>);
+BENCHMARK(increment_without_tangent<Fabric::omega>);
+
+template <Fabric K>
+void increment_with_tangent(benchmark::State& state) {
+  const model::Law<double> law(bench::slump_mud());
+  auto point = bench::slump_state<model::kGeneral, K>();
+  auto loading =
+      integrators::strain_increment<double>(bench::slump_strain_rate<model::kGeneral>(), bench::kStep);
+  const auto tolerance = bench::slump_tolerance();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(point);
+    benchmark::DoNotOptimize(loading);
+    const auto done = integrators::integrate_with_tangent(law, point, loading, tolerance);
+    if (done->result.statistics.accepted != 1) state.SkipWithError(kNotOneSubstep);
+    benchmark::DoNotOptimize(done);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(increment_with_tangent<Fabric::none>);
+BENCHMARK(increment_with_tangent<Fabric::omega>);
+
+void increment_by_reference(benchmark::State& state) {
+  const model::Law<double> law(bench::slump_mud());
+  const auto point = bench::slump_state<model::kGeneral, Fabric::omega>();
+  const auto loading =
+      integrators::strain_increment<double>(bench::slump_strain_rate<model::kGeneral>(), bench::kStep);
+  for (auto _ : state) benchmark::DoNotOptimize(integrators::integrate_cvode(law, point, loading, {}));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(increment_by_reference);
 
 }  // namespace

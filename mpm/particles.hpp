@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "model/state.hpp"
+
 namespace isotach::mpm {
 
 /// Material points of an axisymmetric body. Mass and volume are per radian. Arrays have padded() entries, so
@@ -23,6 +25,8 @@ struct Particles {
   std::vector<double> solid_volume;            ///< m3/rad; the volume is solid_volume (1 + e)
   std::array<std::vector<double>, 4> stress;   ///< effective stress (Pa)
   std::vector<double> void_ratio;
+  std::array<std::vector<double>, 4>
+      omega;  ///< anisotropy tensor (-), plane Mandel; empty where it stays zero
   std::vector<double> initial_pore_pressure;       ///< u at e = e0 (Pa), compression positive
   std::array<std::vector<double>, 4> strain_rate;  ///< of the last step (1/s), volumetric part averaged
   std::vector<double> spin;                        ///< W_rz of the last step (1/s)
@@ -34,7 +38,7 @@ struct Particles {
     return (n + lanes - 1) / lanes * lanes;
   }
 
-  /// Calls f(array) for every array.
+  /// Calls f(array) for every array that all bodies have: omega is left out.
   template <class F>
   void for_each_array(F&& f) {
     for (auto* a :
@@ -47,6 +51,17 @@ struct Particles {
   }
 
   [[nodiscard]] double volume(std::size_t i) const { return solid_volume[i] * (1.0 + void_ratio[i]); }
+
+  /// State of point i in the law's terms.
+  [[nodiscard]] model::State<double, model::kPlane> state(std::size_t i) const {
+    model::State<double, model::kPlane> result;
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+      result.stress[static_cast<int>(k)] = stress[k][i];
+      if (!omega[k].empty()) result.omega[static_cast<int>(k)] = omega[k][i];
+    }
+    result.void_ratio = void_ratio[i];
+    return result;
+  }
 };
 
 }  // namespace isotach::mpm

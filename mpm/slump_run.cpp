@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mpm/lanes.hpp"
 #include "mpm/spline.hpp"
 
 namespace isotach::mpm {
@@ -101,6 +102,9 @@ void SlumpRun::fill_mould() {
   particles_.for_each_array([padded](std::vector<double>& array) { array.assign(padded, 0.0); });
   for (std::size_t k = 0; k < 3; ++k) particles_.stress[k].assign(padded, -initial_.mean_effective_pressure);
   particles_.void_ratio.assign(padded, initial_.void_ratio);
+  if (law_.parameters().rotates()) {
+    for (auto& component : particles_.omega) component.assign(padded, 0.0);
+  }
 
   std::size_t i = 0;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -422,11 +426,7 @@ Snapshot SlumpRun::snapshot() const {
     // the averaged pressure is the one that acts
     const CornerWeights w = corner_weights(grid_, particles_.r[i], particles_.z[i]);
     s.pore_pressure.push_back(gather(grid_.corner_values(), w, stride) - mean_effective_pressure(i));
-    model::State<double, model::kPlane> state;
-    for (int k = 0; k < model::kPlane; ++k)
-      state.stress[k] = particles_.stress[static_cast<std::size_t>(k)][i];
-    state.void_ratio = particles_.void_ratio[i];
-    s.overconsolidation_ratio.push_back(law_.overconsolidation_ratio(state));
+    s.overconsolidation_ratio.push_back(law_.overconsolidation_ratio(particles_.state(i)));
   }
   return s;
 }

@@ -2,10 +2,9 @@
 // The VHP law advanced over a time step at all material points, many at once.
 #pragma once
 
-#include <array>
+#include <cstddef>
 
 #include "integrators/fellin_ostermann.hpp"
-#include "mpm/lanes.hpp"
 #include "mpm/particles.hpp"
 
 namespace isotach::mpm {
@@ -21,28 +20,24 @@ struct StressUpdateCount {
 /// itself with adaptive substeps.
 ///
 /// A point whose mean effective pressure would fall below `least_pressure` leaves the law's domain (the
-/// skeleton loses contact); it is set to the isotropic stress of that pressure and counted.
+/// skeleton loses contact); it is set to the isotropic stress of that pressure, Omega to zero, and counted.
 class StressUpdate {
  public:
-  /// `tolerance` relative to |T|, > 0; `least_pressure` in Pa, > 0.
+  /// `tolerance` on EST relative to |T|, 1+e and 1+|Omega|, > 0; `least_pressure` in Pa, > 0.
   StressUpdate(const model::Parameters<double>& parameters, double tolerance, double least_pressure);
 
-  /// Updates stress and void ratio of all points from their strain_rate and spin over `dt` (s).
+  /// Updates stress, void ratio and, where the material rotates, Omega of all points from their strain_rate
+  /// and spin over `dt` (s).
   StressUpdateCount update(Particles& particles, double dt) const;
 
  private:
-  using PlaneState = model::State<Lanes, model::kPlane>;
-
-  /// Advances a pack in equal substeps. `error` receives each point's largest EST/TOL, a huge value where it
-  /// left the domain; returns the largest of all.
-  double advance(PlaneState& y, const model::Mandel<Lanes, model::kPlane>& strain_rate,
-                 const Eigen::Matrix<Lanes, 3, 1>& spin, double dt, int substeps,
-                 std::array<double, Lanes::kCount>& error) const;
+  template <model::Fabric K>
+  StressUpdateCount update_form(Particles& particles, double dt) const;
   /// Updates point i by substeps. Returns false where it ended at the least pressure.
+  template <model::Fabric K>
   bool substep(Particles& particles, std::size_t i, double dt) const;
 
   model::Law<double> law_;
-  model::Law<Lanes> lanes_law_;
   double tolerance_;
   double least_pressure_;
 };
