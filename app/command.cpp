@@ -39,6 +39,23 @@ int guarded(const std::function<int()>& body) {
   }
 }
 
+CLI::Validator number_between(double least, double greatest) {
+  const std::string accepted = fmt::format("{} to {}", least, greatest);
+  return {[=](const std::string& text) {
+            double value = 0.0;
+            const bool inside = CLI::detail::lexical_cast(text, value) && value >= least && value <= greatest;
+            return inside ? std::string() : fmt::format("{} is not accepted; accepted: {}", text, accepted);
+          },
+          accepted};
+}
+
+void add_input(CLI::App& line, CommonOptions& common, const char* what) {
+  line.add_option(what, common.input, "a TOML file")->required();
+  line.add_option("--max-file-mb", common.max_file_megabytes, "largest input file accepted, in MB")
+      ->check(number_between(1e-6, 1e6))
+      ->capture_default_str();
+}
+
 int end_failed(reports::OutputDirectory& output, const nlohmann::ordered_json& result,
                const std::string& message, bool interrupted) {
   if (interrupted) {

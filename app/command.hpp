@@ -1,7 +1,8 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// What all commands share: options, exit codes, and how a run ends.
+// What all commands share: how they stand on the command line, options, exit codes, and how a run ends.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -50,10 +51,30 @@ class Run {
 /// Publishes the results and says where the report is.
 [[nodiscard]] int end_done(reports::OutputDirectory& output, bool quiet);
 
-// The commands; each returns an exit code.
-[[nodiscard]] int fit_oedometer(const CommonOptions& options);
-[[nodiscard]] int fit_slump(const CommonOptions& options);
-[[nodiscard]] int calibrate(const CommonOptions& options);
-[[nodiscard]] int slump(const CommonOptions& options);
+/// Runs a command with the options that its line gave; returns an exit code.
+using Runner = std::function<int()>;
+
+/// A command of the program.
+struct Command {
+  const char* name;
+  const char* description;
+  /// Adds the command's own options, its input file among them, to its line, and returns what runs it once
+  /// the line has been read. `common` outlives both.
+  Runner (*set_up)(CLI::App& line, CommonOptions& common);
+};
+
+/// Accepts numbers from `least` to `greatest`, and so, unlike CLI::Range, no NaN.
+[[nodiscard]] CLI::Validator number_between(double least, double greatest);
+
+/// The input file as a positional argument called `what`, and the limit of its size.
+void add_input(CLI::App& line, CommonOptions& common, const char* what);
+
+// The commands.
+[[nodiscard]] Runner calibrate_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner element_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner fit_oedometer_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner fit_slump_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner slump_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner verify_command(CLI::App& line, CommonOptions& common);
 
 }  // namespace isotach::app

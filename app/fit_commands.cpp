@@ -52,8 +52,6 @@ int failed(reports::OutputDirectory& output, const Run& run, const calibration::
   return end_failed(output, reports::failure_json(run.info(), failure), failure.message, failure.interrupted);
 }
 
-}  // namespace
-
 int fit_oedometer(const CommonOptions& options) {
   const Run run("fit-oedometer", options.input);
   const datasets::Study study = datasets::read_study(options.input, options.read_options());
@@ -118,6 +116,26 @@ int calibrate(const CommonOptions& options) {
   if (!result) return failed(output, run, result.error());
   progress.finish();
   return publish(output, options, run, study, *result, reports::calibration_report);
+}
+
+/// A command whose only option of its own is the study.
+Runner on_study(CLI::App& line, CommonOptions& common, int (*command)(const CommonOptions&)) {
+  add_input(line, common, "STUDY");
+  return [&common, command] { return command(common); };
+}
+
+}  // namespace
+
+Runner fit_oedometer_command(CLI::App& line, CommonOptions& common) {
+  return on_study(line, common, fit_oedometer);
+}
+
+Runner fit_slump_command(CLI::App& line, CommonOptions& common) {
+  return on_study(line, common, fit_slump);
+}
+
+Runner calibrate_command(CLI::App& line, CommonOptions& common) {
+  return on_study(line, common, calibrate);
 }
 
 }  // namespace isotach::app

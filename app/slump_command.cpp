@@ -14,6 +14,8 @@
 
 namespace isotach::app {
 
+namespace {
+
 int slump(const CommonOptions& options) {
   const Run run("slump", options.input);
   const datasets::SlumpFile test = datasets::read_slump_file(options.input, options.read_options());
@@ -37,6 +39,13 @@ int slump(const CommonOptions& options) {
   reports::write_particles(output, result->snapshots);
   output.write_json("result.json", reports::result_json(run.info(), test, *result));
   return end_done(output, options.quiet);
+}
+
+}  // namespace
+
+Runner slump_command(CLI::App& line, CommonOptions& common) {
+  add_input(line, common, "TEST");
+  return [&common] { return slump(common); };
 }
 
 }  // namespace isotach::app

@@ -1,27 +1,16 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// Heads and fits of result.json.
+// Fits and slumps of result.json.
 #include "reports/result_json.hpp"
 
 #include "reports/estimates.hpp"
 #include "reports/json_number.hpp"
+#include "reports/result_head.hpp"
 #include "reports/slump_json.hpp"
 
 namespace isotach::reports {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json head(const RunInfo& run, std::string_view status, const std::vector<std::string>& warnings) {
-  ordered_json json;
-  json["command"] = run.command;
-  json["version"] = run.version;
-  json["status"] = status;
-  json["seconds"] = json_number(run.seconds);
-  json["input"] = input_name(run.input);
-  json["warnings"] = run.warnings;
-  for (const std::string& warning : warnings) json["warnings"].push_back(warning);
-  return json;
-}
 
 ordered_json parameters_json(const std::vector<calibration::ParameterEstimate>& estimates) {
   ordered_json json = ordered_json::object();
@@ -164,13 +153,13 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more,
 
 ordered_json result_json(const RunInfo& run, const datasets::Study& study,
                          const calibration::OedometerFit& fit) {
-  ordered_json json = head(run, "ok", fit.result.warnings);
+  ordered_json json = result_head(run, "ok", fit.result.warnings);
   json.update(oedometer_fit_json(study, fit));
   return json;
 }
 
 ordered_json result_json(const RunInfo& run, const datasets::Study& study, const calibration::SlumpFit& fit) {
-  ordered_json json = head(run, "ok", fit.result.warnings);
+  ordered_json json = result_head(run, "ok", fit.result.warnings);
   json.update(slump_fit_json(study, fit));
   return json;
 }
@@ -180,7 +169,7 @@ ordered_json result_json(const RunInfo& run, const datasets::Study& study,
   std::vector<std::string> warnings;
   append(warnings, calibration.oedometer.result.warnings, "oedometer fit: ");
   append(warnings, calibration.slump.result.warnings, "slump fit: ");
-  ordered_json json = head(run, "ok", warnings);
+  ordered_json json = result_head(run, "ok", warnings);
   json["parameters"] = parameters_json(combined_estimates(calibration));
   json["adequate"] = calibration.oedometer.result.adequate && calibration.slump.result.adequate;
   json["settled"] = calibration.settled;
@@ -204,21 +193,21 @@ ordered_json result_json(const RunInfo& run, const datasets::Study& study,
 
 ordered_json result_json(const RunInfo& run, const datasets::SlumpFile& test,
                          const mpm::SlumpResult& result) {
-  ordered_json json = head(run, "ok", {});
+  ordered_json json = result_head(run, "ok", {});
   json.update(slump_json(test.setup, result));
   json["assumptions"] = test.assumptions;
   return json;
 }
 
 ordered_json failure_json(const RunInfo& run, const calibration::FitFailure& failure) {
-  ordered_json json = head(run, failure.interrupted ? "interrupted" : "failed", {});
+  ordered_json json = result_head(run, failure.interrupted ? "interrupted" : "failed", {});
   json["failure"] = failure.message;
   return json;
 }
 
 ordered_json failure_json(const RunInfo& run, const mpm::SlumpFailure& failure) {
   using Kind = mpm::SlumpFailure::Kind;
-  ordered_json json = head(run, failure.kind == Kind::interrupted ? "interrupted" : "failed", {});
+  ordered_json json = result_head(run, failure.kind == Kind::interrupted ? "interrupted" : "failed", {});
   json["failure"] = failure.message;
   json["time_s"] = json_number(failure.time);
   // only a point that went astray has a place

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/estimates.hpp"
 #include "reports/fit_sections.hpp"
+#include "reports/material_table.hpp"
 #include "reports/number.hpp"
 #include "reports/slump_tables.hpp"
 
@@ -120,21 +120,6 @@ Table output_table(const datasets::SlumpFile& test, const SlumpResult& result) {
   table.notes = {
       "Height: highest point of the outline; toe: its largest radius. Imbalance: change of the sum of "
       "energies and work over the potential energy at the start."};
-  return table;
-}
-
-Table material_table(const model::Parameters<double>& material) {
-  using enum Alignment;
-  Table table{.caption = "Material.",
-              .header = {"Parameter", "Value", "Unit", "Meaning"},
-              .alignment = {left, right, left, left}};
-  for (const model::ParameterInfo& info : model::kParameterTable) {
-    table.rows.push_back({std::string(info.name), format_number(in_key_unit(info.id, material[info.id])),
-                          std::string(info.unit == "-" ? kMissing : info.unit), std::string(info.meaning)});
-  }
-  if (material.lode() == model::LodeDependence::none) {
-    table.notes = {"Critical-state strength does not depend on the Lode angle."};
-  }
   return table;
 }
 
