@@ -1,53 +1,76 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // The command line.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
 
 namespace {
 
+using isotach::app::Command;
 using isotach::app::CommonOptions;
-
-struct Command {
-  const char* name;
-  const char* input;
-  const char* description;
-  int (*run)(const CommonOptions&);
-};
+using isotach::app::Runner;
 
 constexpr Command kCommands[] = {
-    {"calibrate", "STUDY", "the main job: fit-oedometer, fit-slump, and again until both stand still",
-     isotach::app::calibrate},
-    {"fit-oedometer", "STUDY", "e100, lambda, kappa, D_r (and more, as the study says) from oedometer tests",
-     isotach::app::fit_oedometer},
-    {"fit-slump", "STUDY", "I_v and C_1 (as the study says) from measured slump outlines",
-     isotach::app::fit_slump},
-    {"slump", "TEST", "one slump test by the material point method", isotach::app::slump},
+    {"calibrate", "the main job: fit-oedometer, fit-slump, and again until both stand still",
+     isotach::app::calibrate_command},
+    {"element", "one element test: a material point led through stages of stress and strain",
+     isotach::app::element_command},
+    {"fit-oedometer", "e100, lambda, kappa, D_r (and more, as the study says) from oedometer tests",
+     isotach::app::fit_oedometer_command},
+    {"fit-slump", "I_v and C_1 (as the study says) from measured slump outlines",
+     isotach::app::fit_slump_command},
+    {"slump", "one slump test by the material point method", isotach::app::slump_command},
+    {"verify", "the law and its integration against references, closed forms and each other",
+     isotach::app::verify_command},
 };
+
+void add_common_options(CLI::App& line, CommonOptions& common) {
+  line.add_option("--out", common.out, "folder for the results, created with its parents")
+      ->capture_default_str();
+  line.add_option("--threads", common.threads, "simulations run at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  line.add_flag("--quiet", common.quiet, "no progress, no message but errors");
+}
+
+/// The first argument where it would be a command and is none; the parser itself would not name it.
+const char* unknown_command(int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return nullptr;
+  const std::string_view name = argv[1];
+  const bool known = std::any_of(std::begin(kCommands), std::end(kCommands),
+                                 [name](const Command& command) { return command.name == name; });
+  return known ? nullptr : argv[1];
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const char* name = unknown_command(argc, argv)) {
+    std::vector<std::string_view> names;
+    for (const Command& command : kCommands) names.emplace_back(command.name);
+    fmt::print(stderr, "isotach: unknown command \"{}\"; accepted: {}\n", name, fmt::join(names, ", "));
+    return isotach::app::kBadInput;
+  }
   CLI::App app{"isotach: verification and calibration of the visco-hypoplastic model of soft clays and muds"};
   app.set_version_flag("--version", ISOTACH_VERSION);
   app.require_subcommand(1);
-  CommonOptions options;
-  options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  CommonOptions common;
+  common.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<Runner> runners;
   for (const Command& command : kCommands) {
-    CLI::App* sub = app.add_subcommand(command.name, command.description);
-    sub->add_option(command.input, options.input, "a TOML file")->required();
-    sub->add_option("--out", options.out, "folder for the results, created with its parents")
-        ->capture_default_str();
-    sub->add_option("--threads", options.threads, "simulations run at once")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    sub->add_flag("--quiet", options.quiet, "no progress, no message but errors");
-    sub->add_option("--max-file-mb", options.max_file_megabytes, "largest input file accepted, in MB")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    CLI::App* line = app.add_subcommand(command.name, command.description);
+    runners.push_back(command.set_up(*line, common));
+    add_common_options(*line, common);
   }
   try {
     app.parse(argc, argv);
@@ -55,10 +78,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? isotach::app::kDone : isotach::app::kBadInput;
   }
   isotach::app::watch_interrupts();
-  for (const Command& command : kCommands) {
-    if (app.got_subcommand(command.name)) {
-      return isotach::app::guarded([&] { return command.run(options); });
-    }
+  for (std::size_t i = 0; i < runners.size(); ++i) {
+    if (app.got_subcommand(kCommands[i].name)) return isotach::app::guarded(runners[i]);
   }
   return isotach::app::kBadInput;
 }

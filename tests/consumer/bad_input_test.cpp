@@ -25,6 +25,23 @@ initial_K0 = 0.8
 noise = { stress_relative = 0.005, stress_floor_kPa = 0.02, strain = 2e-5 }
 )";
 
+constexpr std::string_view kElement = R"([material]
+e100 = 1.5
+lambda = 0.1
+kappa = 0.02
+I_v = 0.05
+D_r_per_s = 1e-6
+phi_c_deg = 25
+C_1 = 0
+[state]
+stress_kPa = [100, 100, 100, 0, 0, 0]
+void_ratio = 1.5
+[[stage]]
+duration_s = 1e4
+rows = 3
+strain_rate_per_s = { 11 = 1e-6 }
+)";
+
 constexpr std::string_view kData = R"(time_s,axial_strain,axial_stress_kPa
 0,0.00,4
 1000,0.01,8
@@ -38,6 +55,7 @@ class BadInput : public ConsumerTest {
     write("study.toml", kStudy);
     write("crs.csv", kData);
     write("slump.toml", kTinySlump);
+    write("element.toml", kElement);
   }
   void change(std::string_view file, std::string_view from, std::string_view to) const {
     write(file, replaced(content_of(folder() / file), from, to));
@@ -72,6 +90,19 @@ TEST_F(BadInput, UnknownKeyOfASlumpFile) {
   change("slump.toml", "cell_size_mm = 13.0", "cell_size_m = 0.013");
   expect_refused({"slump", "slump.toml"},
                  {"slump.toml:21: ", "key cell_size_m in [numerics]", "cell_size_mm"});
+}
+
+TEST_F(BadInput, ComponentOfAnElementTestUnderTwoControls) {
+  change("element.toml", "rows = 3", "stress_rate_kPa_per_s = { 11 = 0.0 }");
+  expect_refused({"element", "element.toml"},
+                 {"element.toml:14: ", "key 11 in [stage.stress_rate_kPa_per_s]",
+                  "component 11 has its strain_rate_per_s already", "accepted: "});
+}
+
+TEST_F(BadInput, StateOfAnElementTestOutsideOfTheLaw) {
+  change("element.toml", "[100, 100, 100, 0, 0, 0]", "[100, -20, -20, 0, 0, 0]");
+  expect_refused({"element", "element.toml"},
+                 {"element.toml:10: ", "stress_kPa", "q = 120 at p = 20", "q < 3 p"});
 }
 
 TEST_F(BadInput, ParameterOutOfItsRange) {
@@ -143,6 +174,11 @@ TEST_F(BadInput, OutIsAFile) {
   }
 }
 
+TEST_F(BadInput, UnknownCommandIsNamedAmongThoseThereAre) {
+  expect_refused({"bogus", "study.toml"},
+                 {"unknown command \"bogus\"", "accepted: ", "calibrate", "element", "slump"});
+}
+
 TEST_F(BadInput, CommandLineThatIsNone) {
   const std::vector<std::string> before = everything();
   const std::vector<std::vector<std::string>> lines{
@@ -154,6 +190,12 @@ TEST_F(BadInput, CommandLineThatIsNone) {
       {"slump", "slump.toml", "--threads", "0"},
       {"slump", "slump.toml", "--threads", "two"},
       {"slump", "slump.toml", "--max-file-mb", "-1"},
+      {"slump", "slump.toml", "--max-file-mb", "nan"},
+      {"slump", "slump.toml", "--integrator", "cvode"},
+      {"element", "element.toml", "--integrator", "euler"},
+      {"element", "element.toml", "--tolerance", "0"},
+      {"element", "element.toml", "--tolerance", "nan"},
+      {"element", "element.toml", "--tolerance", "1"},
   };
   for (const auto& line : lines) {
     const Ended ended = run(line);
