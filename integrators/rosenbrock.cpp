@@ -153,7 +153,6 @@ tl::expected<Integrated<double>, Failure> solve(const model::Law<double>& law,
                                                 const model::State<double>& start,
                                                 const Increment<double>& increment,
                                                 const Tolerance& tolerance, double first_substep) {
-  constexpr double kSmallestSubstep = 1e-15;  // of the duration: below this time no longer advances
   IncrementSystem<K> system(law, increment, start.stress.norm());
   Substeps<K> substeps(system, tolerance);
   typename Substeps<K>::Unknowns y;
@@ -178,7 +177,7 @@ tl::expected<Integrated<double>, Failure> solve(const model::Law<double>& law,
     if (statistics.accepted + statistics.rejected >= tolerance.max_substeps) {
       return failure(FailureKind::too_many_substeps);
     }
-    if (proposed < kSmallestSubstep * increment.duration) return failure(FailureKind::substep_underflow);
+    if (!(reached + proposed > reached)) return failure(FailureKind::substep_underflow);
     const double left = increment.duration - reached;
     const double h = std::min(proposed, left);
     const double error = substeps.attempt(h, end);

@@ -167,7 +167,7 @@ Figure cross_check_figure(const CrossCheckCurve& curve) {
     if (!creeps) {
       figure.series.push_back(
           {.label = "fellin-ostermann",
-           .style = SeriesStyle::dots,
+           .style = SeriesStyle::dashed,
            .x = time,
            .y = column(curve, [](const CrossCheckRow& row) { return row.fellin_ostermann_p_kPa; })});
     }
@@ -177,7 +177,7 @@ Figure cross_check_figure(const CrossCheckCurve& curve) {
   figure.y = {.label = "q (kPa)"};
   figure.series = {{.label = "cvode", .x = p, .y = q},
                    {.label = "fellin-ostermann",
-                    .style = SeriesStyle::dots,
+                    .style = SeriesStyle::dashed,
                     .x = column(curve, [](const CrossCheckRow& row) { return row.fellin_ostermann_p_kPa; }),
                     .y = column(curve, [](const CrossCheckRow& row) { return row.fellin_ostermann_q_kPa; })}};
   return figure;

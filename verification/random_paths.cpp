@@ -87,7 +87,9 @@ PathRecord examine(const Path& path, std::uint64_t index, double tolerance) {
         record.outcome = PathOutcome::pressure_gone;
         return record;
       }
+      record.log_length += std::abs(std::log(exact->state.stress.norm() / reference.stress.norm()));
       reference = exact->state;
+      record.least_F = std::min(record.least_F, law.measures(reference.stress).F);
       const auto got = integrators::integrate(law, state, part, options);
       if (!got) {
         record.outcome = PathOutcome::failed;
@@ -99,7 +101,6 @@ PathRecord examine(const Path& path, std::uint64_t index, double tolerance) {
       record.substeps += got->statistics.accepted;
       record.evaluations += got->statistics.evaluations;
       record.error = std::max(record.error, achieved_error(state, reference));
-      record.relative_e = std::max(record.relative_e, std::abs(state.void_ratio - reference.void_ratio));
     }
   }
   return record;

@@ -30,8 +30,9 @@ struct PathRecord {
   std::uint64_t index = 0;
   PathOutcome outcome = PathOutcome::complete;
   double length = 0.0;      ///< integral |D| dt as far as it was followed
+  double log_length = 0.0;  ///< sum of |change of ln|T|| from checkpoint to checkpoint
+  double least_F = 1.0;     ///< at the checkpoints: small near q = 3p, where the law's domain ends
   double error = 0.0;       ///< largest achieved error at the checkpoints
-  double relative_e = 0.0;  ///< that of e alone
   long substeps = 0;        ///< accepted
   long evaluations = 0;     ///< of the law
   std::string message{};    ///< of a failure
