@@ -2,7 +2,6 @@
 // What all commands share: how they stand on the command line, options, exit codes, and how a run ends.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -11,6 +10,10 @@
 #include "datasets/text_file.hpp"
 #include "reports/output_directory.hpp"
 #include "reports/run_info.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace isotach::app {
 

@@ -2,6 +2,7 @@
 // isotach element: one element test.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>

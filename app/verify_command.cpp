@@ -2,6 +2,7 @@
 // isotach verify: the law and its integration against references, closed forms and each other.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <memory>

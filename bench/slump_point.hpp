@@ -2,26 +2,17 @@
 // A point of the slumping mud of test 1 and its motion: what the benchmarks of the law are run on.
 #pragma once
 
-#include <numbers>
-
 #include "integrators/fellin_ostermann.hpp"
 #include "model/law.hpp"
+#include "model/published_sets.hpp"
 
 namespace isotach::bench {
 
 /// The seed's mud, Omega rotating where C_2 > 0.
 inline model::Parameters<double> slump_mud(double C_2 = 0.0, double C_3 = 0.0) {
-  model::ParameterValues<double> values;
-  using Id = model::ParameterId;
-  values[Id::e100] = 1.358;
-  values[Id::lambda] = 0.154;
-  values[Id::kappa] = 0.0129;
-  values[Id::I_v] = 0.02;
-  values[Id::D_r] = 6.8e-7;
-  values[Id::phi_c] = 14.2 * std::numbers::pi / 180.0;
-  values[Id::C_1] = 0.03;
-  values[Id::C_2] = C_2;
-  values[Id::C_3] = C_3;
+  auto values = model::seed_mud_values();
+  values[model::ParameterId::C_2] = C_2;
+  values[model::ParameterId::C_3] = C_3;
   return model::Parameters<double>::create(values).value();
 }
 

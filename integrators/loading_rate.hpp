@@ -30,7 +30,7 @@ class LoadingRate {
         free_[static_cast<std::size_t>(free_count_++)] = i;
     }
     for (int i = 0; i < 3; ++i) rotates_ = rotates_ || model::value_of(increment.spin[i]) != 0.0;
-    norm_ = norm(strain_rate_);
+    norm_ = model::norm_of<S, 6>(strain_rate_);
   }
 
   /// False where the state is outside the law's domain or the free strain rates cannot be found; `rate` and
@@ -76,7 +76,7 @@ class LoadingRate {
     model::Mandel<S> trial = strain_rate_;
     bool converged = false;
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-      const S size_of_trial = norm(trial);
+      const S size_of_trial = model::norm_of<S, 6>(trial);
       const model::Mandel<S> stress_rate =
           law_.stiffness_times(at, trial) - e_m * (viscous + size_of_trial * C_1) + offset;
       const double hypoplastic = model::value_of(C_1) / model::value_of(size_of_trial);
@@ -111,18 +111,12 @@ class LoadingRate {
       for (int i = 0; i < 6; ++i) size = std::max(size, std::abs(model::value_of(trial[i])));
       if (converged) {
         strain_rate_ = trial;
-        norm_ = norm(trial);
+        norm_ = model::norm_of<S, 6>(trial);
         return true;
       }
       converged = change <= kSmallStep * size;
     }
     return false;
-  }
-
-  /// |D|, with a derivative of zero where it vanishes.
-  [[nodiscard]] static S norm(const model::Mandel<S>& strain_rate) {
-    using std::sqrt;
-    return sqrt(strain_rate.squaredNorm() + 1e-300);
   }
 
   [[nodiscard]] int free_component(int i) const { return free_[static_cast<std::size_t>(i)]; }

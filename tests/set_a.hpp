@@ -8,6 +8,7 @@
 #include <string>
 
 #include "integrators/integrate.hpp"
+#include "model/published_sets.hpp"
 
 namespace isotach::tests {
 
@@ -15,18 +16,7 @@ using Law = model::Law<double>;
 using State = model::State<double>;
 using Vector6 = model::Mandel<double>;
 
-/// Set A: e100 1.5, lambda 0.1, kappa 0.02, I_v 0.05, D_r 1e-6 /s, phi_c 25 deg, C_1 0.
-inline model::ParameterValues<double> set_a_values() {
-  model::ParameterValues<double> values;
-  values[model::ParameterId::e100] = 1.5;
-  values[model::ParameterId::lambda] = 0.1;
-  values[model::ParameterId::kappa] = 0.02;
-  values[model::ParameterId::I_v] = 0.05;
-  values[model::ParameterId::D_r] = 1e-6;
-  values[model::ParameterId::phi_c] = 25.0 * std::numbers::pi / 180.0;
-  values[model::ParameterId::C_1] = 0.0;
-  return values;
-}
+using model::set_a_values;
 
 /// Set A with another C_1.
 inline model::Parameters<double> set_a(double C_1 = 0.0) {

@@ -3,24 +3,14 @@
 
 #include <numbers>
 
+#include "model/published_sets.hpp"
+
 namespace isotach::verification {
 
 namespace {
 
 constexpr double kRate = 1e-6;  // 1/s
 constexpr double kDay = 86400.0;
-
-model::ParameterValues<double> set_a_values() {
-  using enum model::ParameterId;
-  model::ParameterValues<double> values;
-  values[e100] = 1.5;
-  values[lambda] = 0.1;
-  values[kappa] = 0.02;
-  values[I_v] = 0.05;
-  values[D_r] = 1e-6;
-  values[phi_c] = 25.0 * std::numbers::pi / 180.0;
-  return values;
-}
 
 Increment<double> axial(double rate, double duration) {
   return principal_strain(rate, 0.0, 0.0, duration);
@@ -49,7 +39,7 @@ Increment<double> simple_shear(double gamma_rate, double duration) {
 }  // namespace
 
 model::Parameters<double> set_a(double C_1, double I_v, double C_2, double C_3) {
-  auto values = set_a_values();
+  auto values = model::set_a_values();
   values[model::ParameterId::C_1] = C_1;
   values[model::ParameterId::I_v] = I_v;
   values[model::ParameterId::C_2] = C_2;
@@ -58,16 +48,7 @@ model::Parameters<double> set_a(double C_1, double I_v, double C_2, double C_3) 
 }
 
 model::Parameters<double> seed_mud() {
-  using enum model::ParameterId;
-  model::ParameterValues<double> values;
-  values[e100] = 1.358;
-  values[lambda] = 0.154;
-  values[kappa] = 0.0129;
-  values[I_v] = 0.02;
-  values[D_r] = 6.8e-7;
-  values[phi_c] = 14.2 * std::numbers::pi / 180.0;
-  values[C_1] = 0.03;
-  return model::Parameters<double>::create(values).value();
+  return model::Parameters<double>::create(model::seed_mud_values()).value();
 }
 
 std::vector<NamedPath> named_paths() {
