@@ -53,7 +53,7 @@ TEST(ElementTest, RowsStandAtEqualIntervalsOfEachStageAfterTheStart) {
     EXPECT_EQ(row.stage, stages[i]);
     EXPECT_NEAR(row.strain[0], -strain[i], 1e-14);
     EXPECT_NEAR(row.state.void_ratio, 2.5 * std::exp(-strain[i]) - 1.0, 1e-5);  // default tolerance 1e-6
-    EXPECT_EQ(row.overconsolidation_ratio, law.overconsolidation_ratio(row.state));
+    EXPECT_DOUBLE_EQ(row.overconsolidation_ratio, law.overconsolidation_ratio(row.state));
   }
   EXPECT_EQ(rows->front().state.stress, kStart.stress);
 }
