@@ -107,6 +107,11 @@ template <class S, int N, model::Fabric K>
   return detail::scaled_size(difference, w, tolerance);
 }
 
+/// No bound on substeps but that of their error.
+struct Unlimited {
+  double operator()() const { return HUGE_VAL; }
+};
+
 /// Advances `state` by `duration` with dy/dt = rate(y); over a substep tau
 ///
 ///   v = y + tau F(y),  y_half = y + tau/2 F(y),  w = y_half + tau/2 F(y_half),  EST = ||w - v||,
@@ -116,14 +121,17 @@ template <class S, int N, model::Fabric K>
 /// `rate(state, out)` returns false where it cannot be computed; such a trial is rejected, as is one whose
 /// end point is not `inside(state)`. `midpoint(tau)` is called for each accepted substep, while y_half was
 /// the last that `rate` could compute, so that integrals of what `rate` knows can be formed by the midpoint
-/// rule. `substep` is the first substep to try (s; 0: the duration) and returns a good next one. On failure
-/// `state` is unchanged.
+/// rule. `largest()` bounds the substep (s) from the state that `rate` computed last; where derivatives are
+/// integrated along, it has to keep the method stable: error control reacts to values only, and lets
+/// derivatives grow as long as those of the round-off need to show. `substep` is the first substep to try (s;
+/// 0: the duration) and returns a good next one. On failure `state` is unchanged.
 ///
 /// Source: W. Fellin and A. Ostermann, Int. J. Numer. Anal. Meth. Geomech. 26 (2002) 1213-1233.
-template <class S, int N, model::Fabric K, class Rate, class Inside, class Midpoint>
+template <class S, int N, model::Fabric K, class Rate, class Inside, class Midpoint,
+          class Largest = Unlimited>
 [[nodiscard]] tl::expected<Statistics, SubstepFailure<model::State<S, N, K>>> fellin_ostermann_substeps(
     model::State<S, N, K>& state, double duration, const Tolerance& tolerance, double& substep, Rate&& rate,
-    Inside&& inside, Midpoint&& midpoint) {
+    Inside&& inside, Midpoint&& midpoint, Largest&& largest = {}) {
   constexpr double kSafety = 0.9;
   constexpr double kLargestGrowth = 5.0;
   constexpr double kSmallestShrink = 0.2;
@@ -141,18 +149,20 @@ template <class S, int N, model::Fabric K, class Rate, class Inside, class Midpo
 
   double proposed = substep > 0.0 ? substep : duration;
   bool moved = true;  // since f was taken
+  double bound = HUGE_VAL;
   while (reached < duration) {
     if (moved) {
       ++statistics.evaluations;
       if (!rate(y, f)) return failure(FailureKind::outside_domain);
       moved = false;
+      bound = largest();
     }
     if (statistics.accepted + statistics.rejected >= tolerance.max_substeps) {
       return failure(FailureKind::too_many_substeps);
     }
-    if (!(reached + proposed > reached)) return failure(FailureKind::substep_underflow);
+    if (!(reached + std::min(proposed, bound) > reached)) return failure(FailureKind::substep_underflow);
     const double left = duration - reached;
-    const double tau = std::min(proposed, left);
+    const double tau = std::min(std::min(proposed, bound), left);
 
     const State y_half = advanced(y, f, 0.5 * tau);
     double error = HUGE_VAL;

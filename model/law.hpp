@@ -101,9 +101,13 @@ class Law {
     const S inverse_p = 1.0 / r.p;
     // T + p first: exactly zero at isotropic stress, where a rest of round-off would have a direction
     for (int i = 0; i < N; ++i) {
-      r.ratio[i] = (i < 3 ? state.stress[i] + r.p : state.stress[i]) * inverse_p;
+      r.ratio[i] =
+          (i < kNormal<N> ? state.stress[i] + normal_component<N>(i, r.p) : state.stress[i]) * inverse_p;
     }
-    for (int i = 0; i < N; ++i) r.direction[i] = (i < 3 ? 1.0 - r.ratio[i] : -r.ratio[i]) * (1.0 / 3.0);
+    for (int i = 0; i < N; ++i) {
+      r.direction[i] =
+          (i < kNormal<N> ? normal_component<N>(i, 1.0) - r.ratio[i] : -r.ratio[i]) * (1.0 / 3.0);
+    }
     const S ratio2 = contraction<S, N>(r.ratio, r.ratio);
     const LodeFactor<S> lode = lode_factor<S, N>(r.ratio, ratio2);
     r.F = lode.F;
@@ -127,7 +131,7 @@ class Law {
     const S volumetric = mean * inverse_norm;
     for (int i = 0; i < N; ++i) {
       r.m[i] = s[i] * deviatoric;
-      if (i < 3) r.m[i] += volumetric;
+      if (i < kNormal<N>) r.m[i] += normal_component<N>(i, volumetric);
     }
     return r;
   }

@@ -12,26 +12,52 @@ namespace isotach::model {
 inline constexpr int kGeneral = 6;
 /// Number of components where one direction is principal: plane strain and axisymmetry.
 inline constexpr int kPlane = 4;
+/// Number of components where two principal values are equal: confined and triaxial compression.
+inline constexpr int kAxial = 2;
 
 /// Symmetric second-order tensor as a Mandel vector, so that a.dot(b) is the double contraction and a.norm()
 /// the Frobenius norm.
 ///
 /// N = 6: (A11, A22, A33, sqrt2 A12, sqrt2 A13, sqrt2 A23).
 /// N = 4: (A11, A22, A33, sqrt2 A12), with A13 = A23 = 0 (axisymmetry: 1 = r, 2 = z, 3 = hoop).
+/// N = 2: (A11, sqrt2 A22), with A22 = A33 and no shear (1 = axial, 2 = 3 = radial).
 template <class S, int N = kGeneral>
 using Mandel = Eigen::Matrix<S, N, 1>;
+
+/// Number of components of the unit tensor that are not zero, the first ones.
+template <int N>
+inline constexpr int kNormal = N == kAxial ? 2 : 3;
 
 /// Unit tensor.
 template <class S, int N = kGeneral>
 [[nodiscard]] Mandel<S, N> unit_tensor() {
   Mandel<S, N> one = Mandel<S, N>::Constant(S(0.0));
-  one[0] = one[1] = one[2] = S(1.0);
+  one[0] = one[1] = S(1.0);
+  if constexpr (N == kAxial) {
+    one[1] = S(std::numbers::sqrt2);
+  } else {
+    one[2] = S(1.0);
+  }
   return one;
+}
+
+/// A value of the same size in every direction, as component i < kNormal<N> of its Mandel vector.
+template <int N, class S>
+[[nodiscard]] S normal_component(int i, const S& value) {
+  if constexpr (N == kAxial) {
+    return i == 0 ? value : value * std::numbers::sqrt2;
+  } else {
+    return value;
+  }
 }
 
 template <class S, int N>
 [[nodiscard]] S trace(const Mandel<S, N>& a) {
-  return a[0] + a[1] + a[2];
+  if constexpr (N == kAxial) {
+    return a[0] + a[1] * std::numbers::sqrt2;
+  } else {
+    return a[0] + a[1] + a[2];
+  }
 }
 
 /// Double contraction a : b. Component by component, as everything that the law does with double: a store by
@@ -52,22 +78,24 @@ template <class S, int N>
 [[nodiscard]] Mandel<S, N> deviator(const Mandel<S, N>& a) {
   const S mean = trace<S, N>(a) * S(1.0 / 3.0);
   Mandel<S, N> d = a;
-  d[0] -= mean;
-  d[1] -= mean;
-  d[2] -= mean;
+  for (int i = 0; i < kNormal<N>; ++i) d[i] -= normal_component<N>(i, mean);
   return d;
 }
 
 /// Determinant of the tensor whose Mandel vector is `a`.
 template <class S, int N>
 [[nodiscard]] S determinant(const Mandel<S, N>& a) {
-  static_assert(N == kGeneral || N == kPlane);
-  S result = a[0] * a[1] * a[2] - a[2] * (a[3] * a[3]) * S(0.5);
-  if constexpr (N == kGeneral) {
-    result += a[3] * a[4] * a[5] * S(1.0 / std::numbers::sqrt2);
-    result -= (a[1] * (a[4] * a[4]) + a[0] * (a[5] * a[5])) * S(0.5);
+  static_assert(N == kGeneral || N == kPlane || N == kAxial);
+  if constexpr (N == kAxial) {
+    return a[0] * (a[1] * a[1]) * 0.5;
+  } else {
+    S result = a[0] * a[1] * a[2] - a[2] * (a[3] * a[3]) * S(0.5);
+    if constexpr (N == kGeneral) {
+      result += a[3] * a[4] * a[5] * S(1.0 / std::numbers::sqrt2);
+      result -= (a[1] * (a[4] * a[4]) + a[0] * (a[5] * a[5])) * S(0.5);
+    }
+    return result;
   }
-  return result;
 }
 
 /// 3x3 matrix of a Mandel vector.

@@ -88,6 +88,18 @@ template <class S, int N>
   return state;
 }
 
+/// An axial state in six components.
+template <class S>
+[[nodiscard]] State<S> general(const State<S, kAxial>& state) {
+  const auto expanded = [](const Mandel<S, kAxial>& a) {
+    Mandel<S> result = Mandel<S>::Constant(S(0.0));
+    result[0] = a[0];
+    result[1] = result[2] = a[1] * (1.0 / std::numbers::sqrt2);
+    return result;
+  };
+  return {expanded(state.stress), state.void_ratio, expanded(state.omega)};
+}
+
 /// The state in that form: for Fabric::none its Omega is left out, which must be zero.
 template <Fabric K, class S, int N>
 [[nodiscard]] State<S, N, K> in_form(const State<S, N>& state) {
