@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <system_error>
+#include <utility>
+
+#include "datasets/delimited_line.hpp"
 
 // The reader's own thread would only compete with those that run simulations.
 #define CSV_IO_NO_THREAD
@@ -16,13 +16,6 @@
 
 namespace isotach::datasets {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
 
 char detect_delimiter(std::string_view header) {
   std::array<std::size_t, 3> counts{};
@@ -37,50 +30,6 @@ char detect_delimiter(std::string_view header) {
   return kDelimiters[static_cast<std::size_t>(most - counts.begin())];
 }
 
-/// The text of a quoted cell; `rest` starts at its opening quote and is moved behind the closing one.
-std::string take_quoted(std::string_view& rest, const FilePlace& place) {
-  std::string cell;
-  for (std::size_t i = 1; i < rest.size(); ++i) {
-    if (rest[i] != '"') {
-      cell += rest[i];
-    } else if (i + 1 < rest.size() && rest[i + 1] == '"') {
-      cell += '"';
-      ++i;
-    } else {
-      rest.remove_prefix(i + 1);
-      return cell;
-    }
-  }
-  throw InputError(place, "quoted cell", fmt::format("{} has no closing quote", rest.substr(0, 40)),
-                   "a cell that is closed on its line");
-}
-
-/// Splits a line into `cells` (reused from line to line).
-void split(std::string_view line, char delimiter, const FilePlace& place, std::vector<std::string>& cells) {
-  cells.clear();
-  const std::string_view blanks = delimiter == '\t' ? " \r" : " \t\r";
-  while (true) {
-    const std::size_t first = std::min(line.find_first_not_of(blanks), line.size());
-    if (first < line.size() && line[first] == '"') {
-      line.remove_prefix(first);
-      cells.push_back(take_quoted(line, place));
-      const std::size_t next = std::min(line.find(delimiter), line.size());
-      if (!trimmed(line.substr(0, next)).empty()) {
-        throw InputError(place, "quoted cell",
-                         fmt::format("\"{}\" behind its closing quote", line.substr(0, next)),
-                         "nothing between a closing quote and the delimiter");
-      }
-      if (next == line.size()) return;
-      line.remove_prefix(next + 1);
-      continue;
-    }
-    const std::size_t next = std::min(line.find(delimiter), line.size());
-    cells.emplace_back(trimmed(line.substr(0, next)));
-    if (next == line.size()) return;
-    line.remove_prefix(next + 1);
-  }
-}
-
 std::string list_of(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
@@ -88,9 +37,13 @@ std::string list_of(const std::vector<std::string>& names) {
 }  // namespace
 
 CsvTable CsvTable::read(const std::filesystem::path& file, const ReadOptions& options) {
+  return parse(read_text_file(file, options), file);
+}
+
+CsvTable CsvTable::parse(std::string text, const std::filesystem::path& file) {
   CsvTable table;
   table.file_ = file;
-  std::string content = read_text_file(file, options);
+  std::string content = checked_text(std::move(text), file);
   // The line reader looks one byte beyond a last line without its newline.
   if (content.back() != '\n') content += '\n';
   table.cells_.reserve(content.size());
@@ -103,7 +56,7 @@ CsvTable CsvTable::read(const std::filesystem::path& file, const ReadOptions& op
       if (table.columns_.empty()) {
         table.read_header(next, reader.get_file_line());
       } else {
-        split(next, table.delimiter_, {file, reader.get_file_line()}, cells);
+        split_line(next, table.delimiter_, {file, reader.get_file_line()}, cells);
         table.append_row(cells, reader.get_file_line());
       }
     }
@@ -123,7 +76,7 @@ void CsvTable::read_header(std::string_view line, std::size_t line_number) {
   header_line_ = line_number;
   delimiter_ = detect_delimiter(line);
   const FilePlace place{file_, line_number};
-  split(line, delimiter_, place, columns_);
+  split_line(line, delimiter_, place, columns_);
   while (!columns_.empty() && columns_.back().empty()) columns_.pop_back();
   if (columns_.empty()) throw InputError(place, "header", "no column has a name", "names of columns");
   for (auto name = columns_.begin(); name != columns_.end(); ++name) {
@@ -178,22 +131,8 @@ std::string_view CsvTable::text(std::size_t row, std::size_t column) const {
 }
 
 double CsvTable::number(std::size_t row, std::size_t column, const Range& accepted) const {
-  const std::string_view cell = text(row, column);
-  std::string digits(cell);
-  if (delimiter_ != ',') std::replace(digits.begin(), digits.end(), ',', '.');
-  // from_chars knows no plus sign
-  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.erase(0, 1);
-  const char* const end = digits.data() + digits.size();
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(digits.data(), end, value);
-  const auto refuse = [&](std::string_view why) {
-    return InputError(place(row), fmt::format("column {}", columns_.at(column)),
-                      fmt::format("\"{}\" {}", cell, why), accepted.words());
-  };
-  if (stop != end || error == std::errc::invalid_argument) throw refuse("is not a number");
-  if (error != std::errc{} || !std::isfinite(value)) throw refuse("is not a finite number");
-  if (!accepted.contains(value)) throw refuse("is out of range");
-  return value;
+  return number_in(text(row, column), delimiter_ != ',', accepted, place(row),
+                   fmt::format("column {}", columns_.at(column)));
 }
 
 }  // namespace isotach::datasets

@@ -26,6 +26,8 @@ class CsvTable {
   /// InputError: whatever read_text_file refuses; no header, no row, a column named twice, a row with more or
   /// fewer cells than the header, a quote that is not closed, a line of 16 MiB or more.
   [[nodiscard]] static CsvTable read(const std::filesystem::path& file, const ReadOptions& options = {});
+  /// The same of a text in memory; `file` is only named in messages.
+  [[nodiscard]] static CsvTable parse(std::string text, const std::filesystem::path& file);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }

@@ -28,16 +28,6 @@ double mandel_factor(std::size_t component) {
   return component < 3 ? 1.0 : std::numbers::sqrt2;
 }
 
-std::optional<int> integer_if(TomlTable& table, std::string_view key, const Range& accepted) {
-  const auto value = table.number_if(key, accepted);
-  if (!value) return std::nullopt;
-  if (*value != std::round(*value)) {
-    throw table.error(key, fmt::format("{} is not a whole number", *value),
-                      fmt::format("a whole number {}", accepted.words()));
-  }
-  return static_cast<int>(*value);
-}
-
 /// Which key each component of a stage was named by; twice is an error.
 class Claims {
  public:
@@ -149,7 +139,7 @@ Stage read_stage(TomlTable& table, std::string name) {
   Stage stage;
   stage.name = std::move(name);
   stage.increment.duration = table.number("duration_s", kDuration);
-  stage.rows = integer_if(table, "rows", kRows).value_or(kDefaultRows);
+  stage.rows = table.integer_if("rows", kRows).value_or(kDefaultRows);
   if (const auto first = table.number_if("first_row_s", Range{0.0, stage.increment.duration, true, true})) {
     if (stage.rows < 2) {
       throw table.error("first_row_s", fmt::format("given with rows = {}", stage.rows), "at least two rows");
@@ -175,7 +165,7 @@ std::vector<Stage> read_level(TomlTable& parent, bool may_repeat) {
       stages.push_back(read_stage(table, std::move(name)));
       continue;
     }
-    const int repeat = integer_if(table, "repeat", kRepeat).value_or(1);
+    const int repeat = table.integer_if("repeat", kRepeat).value_or(1);
     const std::vector<Stage> cycle = read_level(table, false);
     if (cycle.empty())
       throw table.error("stage", "it is missing", "[[stage.stage]], once for each part of a cycle");

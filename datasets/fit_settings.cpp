@@ -1,11 +1,12 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// [fit] and [fit.bounds] of a study: implementation.
+// [fit], [fit.bounds] and [fit.prior] of a study: implementation.
 #include "datasets/fit_settings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace isotach::datasets {
@@ -37,6 +38,10 @@ std::vector<ParameterId> read_names(TomlTable& fit, std::string_view key, std::v
   return parameters;
 }
 
+bool contains(const std::vector<ParameterId>& parameters, ParameterId id) {
+  return std::find(parameters.begin(), parameters.end(), id) != parameters.end();
+}
+
 std::optional<Bounds> read_bounds(TomlTable& table, const ParameterInfo& parameter) {
   const Range admissible{parameter.lower, parameter.upper, parameter.lower_open, true};
   const std::string accepted = fmt::format("[lower, upper] with lower < upper, both {}{}", admissible.words(),
@@ -53,6 +58,44 @@ std::optional<Bounds> read_bounds(TomlTable& table, const ParameterInfo& paramet
   return Bounds{parameter.to_si * lower, parameter.to_si * upper};
 }
 
+void read_all_bounds(TomlTable& fit, const model::Parameters<double>& material, FitSettings& settings) {
+  auto table = fit.table_if("bounds");
+  if (!table) return;
+  for (const ParameterInfo& parameter : model::kParameterTable) {
+    auto& bounds = settings.bounds[static_cast<std::size_t>(parameter.id)];
+    bounds = read_bounds(*table, parameter);
+    const bool fitted = contains(settings.oedometer, parameter.id) || contains(settings.slump, parameter.id);
+    const double start = material[parameter.id];
+    if (!bounds || !fitted || (start >= bounds->lower && start <= bounds->upper)) continue;
+    throw table->error(
+        parameter.name,
+        fmt::format("[{:.6g}, {:.6g}] leaves out the start value {:.6g}", bounds->lower / parameter.to_si,
+                    bounds->upper / parameter.to_si, start / parameter.to_si),
+        fmt::format("an interval around {} of [material]", parameter.key));
+  }
+  table->reject_unknown_keys();
+}
+
+void read_all_priors(TomlTable& fit, FitSettings& settings) {
+  auto table = fit.table_if("prior");
+  if (!table) return;
+  for (const ParameterInfo& parameter : model::kParameterTable) {
+    auto prior = table->table_if(parameter.name);
+    if (!prior) continue;
+    if (!contains(settings.oedometer, parameter.id)) {
+      throw table->error(parameter.name, "a prior on a parameter that the fit does not move",
+                         "parameters listed under oedometer in [fit]");
+    }
+    const Range admissible{parameter.lower, parameter.upper, parameter.lower_open, true};
+    const double mean = prior->number("mean", admissible);
+    const double std_error = prior->number("std_error", Range::positive());
+    prior->reject_unknown_keys();
+    settings.priors[static_cast<std::size_t>(parameter.id)] =
+        Prior{parameter.to_si * mean, parameter.to_si * std_error};
+  }
+  table->reject_unknown_keys();
+}
+
 }  // namespace
 
 FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material) {
@@ -65,24 +108,15 @@ FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material)
   constexpr std::array<Gauge, 3> kGaugeValues{Gauge::crs_rate, Gauge::fixed, Gauge::none};
   settings.gauge = kGaugeValues[fit->choice_if("gauge", kGauges).value_or(0)];
   settings.reference_rate = fit->number_if("reference_rate_per_s", Range::positive(1.0));
-
-  if (auto table = fit->table_if("bounds")) {
-    for (const ParameterInfo& parameter : model::kParameterTable) {
-      auto& bounds = settings.bounds[static_cast<std::size_t>(parameter.id)];
-      bounds = read_bounds(*table, parameter);
-      const auto is_this = [&](ParameterId id) { return id == parameter.id; };
-      const bool fitted = std::any_of(settings.oedometer.begin(), settings.oedometer.end(), is_this) ||
-                          std::any_of(settings.slump.begin(), settings.slump.end(), is_this);
-      const double start = material[parameter.id];
-      if (!bounds || !fitted || (start >= bounds->lower && start <= bounds->upper)) continue;
-      throw table->error(
-          parameter.name,
-          fmt::format("[{:.6g}, {:.6g}] leaves out the start value {:.6g}", bounds->lower / parameter.to_si,
-                      bounds->upper / parameter.to_si, start / parameter.to_si),
-          fmt::format("an interval around {} of [material]", parameter.key));
-    }
-    table->reject_unknown_keys();
+  constexpr std::array<std::string_view, 2> kStarts{"data", "material"};
+  settings.start = fit->choice_if("start", kStarts).value_or(0) == 0 ? FitStart::data : FitStart::material;
+  settings.starts = fit->integer_if("starts", {1.0, 1000.0}).value_or(settings.starts);
+  settings.bootstrap = fit->integer_if("bootstrap", {0.0, 100'000.0}).value_or(settings.bootstrap);
+  if (const auto seed = fit->integer_if("seed", {0.0, 2'147'483'647.0})) {
+    settings.seed = static_cast<unsigned>(*seed);
   }
+  read_all_bounds(*fit, material, settings);
+  read_all_priors(*fit, settings);
   fit->reject_unknown_keys();
   return settings;
 }

@@ -1,5 +1,5 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// [fit] and [fit.bounds] of a study.
+// [fit], [fit.bounds] and [fit.prior] of a study.
 #pragma once
 
 #include "datasets/study.hpp"
@@ -9,7 +9,8 @@ namespace isotach::datasets {
 
 /// Reads [fit] of `root`; the defaults of FitSettings where it is absent. `material` is where the fit starts.
 /// InputError: an unknown parameter, one listed twice, an unknown gauge, bounds that are not [lower, upper]
-/// within the admissible range, a fitted parameter that starts outside of its bounds.
+/// within the admissible range, a fitted parameter that starts outside of its bounds, a prior that is not
+/// { mean, std_error } or is on a parameter that fit-oedometer does not move, counts out of range.
 [[nodiscard]] FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material);
 
 }  // namespace isotach::datasets

@@ -6,8 +6,6 @@
 
 #include <cstddef>
 
-#include "datasets/csv_table.hpp"
-
 namespace isotach::datasets {
 namespace {
 
@@ -17,7 +15,10 @@ constexpr Range kCoordinate_mm{-5.0};
 }  // namespace
 
 std::vector<Outline> read_outlines(const std::filesystem::path& file, const ReadOptions& options) {
-  const CsvTable table = CsvTable::read(file, options);
+  return parse_outlines(CsvTable::read(file, options));
+}
+
+std::vector<Outline> parse_outlines(const CsvTable& table) {
   const std::size_t time_column = table.require("time_s");
   const std::size_t r_column = table.require("r_mm");
   const std::size_t z_column = table.require("z_mm");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "datasets/csv_table.hpp"
 #include "datasets/text_file.hpp"
 
 namespace isotach::datasets {
@@ -27,5 +28,7 @@ struct Outline {
 /// coordinate below -5 mm, fewer than 3 points at a time.
 [[nodiscard]] std::vector<Outline> read_outlines(const std::filesystem::path& file,
                                                  const ReadOptions& options = {});
+/// The same of a table in memory.
+[[nodiscard]] std::vector<Outline> parse_outlines(const CsvTable& table);
 
 }  // namespace isotach::datasets

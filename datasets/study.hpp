@@ -29,6 +29,19 @@ struct Bounds {
   double upper;
 };
 
+/// What is known of a quantity before the data are seen: a normal distribution (of its logarithm where the
+/// fit moves that).
+struct Prior {
+  double mean;       ///< SI
+  double std_error;  ///< SI, > 0
+};
+
+/// Where an oedometer fit starts.
+enum class FitStart {
+  data,     ///< graphical constructions on the compression curves; what they cannot give from [material]
+  material  ///< [material]
+};
+
 /// [fit]
 struct FitSettings {
   std::vector<model::ParameterId> oedometer{model::ParameterId::e100, model::ParameterId::lambda,
@@ -38,6 +51,37 @@ struct FitSettings {
   std::optional<double>
       reference_rate;  ///< axial strain rate (1/s); default: of the first loading stage fitted
   std::array<std::optional<Bounds>, model::kParameterCount> bounds;  ///< in the order of ParameterId
+  std::array<std::optional<Prior>, model::kParameterCount> priors;   ///< in the order of ParameterId
+  FitStart start = FitStart::data;
+  int starts = 12;    ///< of the multi-start, the first one included; >= 1
+  int bootstrap = 0;  ///< samples of the block bootstrap; 0: none
+  unsigned seed = 1;  ///< of all random choices of a fit
+};
+
+/// How K0 at the start of an oedometer test is known.
+enum class InitialK0 {
+  given,  ///< OedometerTest::initial_K0
+  jaky,   ///< 1 - sin(phi_c), likewise stored in initial_K0
+  steady  ///< of steady oedometric compression, by the law at the parameters of the moment; initial_K0 is
+          ///< Jaky's, as a first guess
+};
+
+/// Whether a fit moves a quantity of one test's start, and what is known of it.
+struct FreeStart {
+  bool moves = false;
+  std::optional<double> std_error;  ///< of the prior around the value given; of ln OCR, of K0 itself
+};
+
+/// When the readings of a load step begin to be compared: once primary consolidation is over.
+struct EndOfPrimary {
+  enum class Rule {
+    taylor,      ///< each step's own, by the square-root-of-time construction
+    casagrande,  ///< each step's own, by the log-time construction
+    given,       ///< `seconds` after the load
+    none         ///< all readings are compared
+  };
+  Rule rule = Rule::taylor;
+  double seconds = 0.0;
 };
 
 /// Standard deviations of an oedometer test's readings; the defaults are those of an ordinary apparatus.
@@ -55,9 +99,18 @@ struct OedometerTest {
   std::optional<double> diameter;  ///< m
   double void_ratio;               ///< e0 (-) at time 0
   std::string void_ratio_source;   ///< how e0 was obtained, in words
-  double initial_K0;               ///< radial over axial effective stress at the start (-)
+  /// de0/dG_s where e0 was worked out with a specific gravity; nothing where it was given.
+  std::optional<double> void_ratio_per_specific_gravity;
+  double initial_K0;  ///< radial over axial effective stress at the start (-)
+  InitialK0 K0_rule = InitialK0::given;
+  FreeStart free_K0;
+  /// p_B/p_B+ at the start. Then the void ratio that the law works with follows from it, and void_ratio only
+  /// turns strains into the void ratios that are drawn.
+  std::optional<double> initial_ocr;
+  FreeStart free_ocr;
   std::optional<double>
-      initial_axial_stress;  ///< Pa, at time 0 and strain 0; absent: the first row is the start
+      initial_axial_stress;     ///< Pa, at time 0 and strain 0; absent: the first row is the start
+  EndOfPrimary end_of_primary;  ///< read only where the record is stress-controlled
   OedometerNoise noise;
   bool hold_out;  ///< not fitted, only predicted
 };
@@ -94,5 +147,8 @@ struct Study {
 /// InputError: no such file, not TOML, a key missing, unknown or out of range, and whatever the readers of
 /// the data refuse.
 [[nodiscard]] Study read_study(const std::filesystem::path& file, const ReadOptions& options = {});
+/// The same of a text in memory; `read_data` gets the paths of the data files.
+[[nodiscard]] Study parse_study(std::string text, const std::filesystem::path& file,
+                                const ReadText& read_data);
 
 }  // namespace isotach::datasets

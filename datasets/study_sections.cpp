@@ -43,6 +43,17 @@ model::Parameters<double> read_material(TomlTable material) {
   return *std::move(parameters);
 }
 
+std::string read_test_name(TomlTable& test, std::set<std::string>& names) {
+  std::string name = test.text("name");
+  if (name.find_first_of("/\\\n\r\t") != std::string::npos) {
+    throw test.error("name", fmt::format("\"{}\"", name), "a name without slashes, tabs and line breaks");
+  }
+  if (!names.insert(name).second) {
+    throw test.error("name", fmt::format("\"{}\" occurs twice", name), "a name of its own for each test");
+  }
+  return name;
+}
+
 void refuse_effects(TomlTable& root) {
   const auto effects = root.table_if("effects");
   if (!effects || effects->empty()) return;

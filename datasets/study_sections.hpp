@@ -2,6 +2,7 @@
 // The sections that studies and slump files share: material, mould, mud, base, numerics.
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,10 @@ class Assumptions {
 /// ("matsuoka-nakai" or "none", optional).
 [[nodiscard]] model::Parameters<double> read_material(TomlTable material);
 
+/// The key name of a test, which must not occur twice (`names`): results are listed and files are named by
+/// it.
+[[nodiscard]] std::string read_test_name(TomlTable& test, std::set<std::string>& names);
+
 /// InputError where the file has an [effects] table with anything in it: none of them can be simulated.
 void refuse_effects(TomlTable& root);
 
@@ -49,6 +54,8 @@ void check_cell_size(TomlTable& root, const mpm::SlumpSetup& setup);
 
 /// Specific gravity of the grains (-) taken where none is given, a mineral soil's.
 inline constexpr double kAssumedSpecificGravity = 2.65;
+/// The same of a peat.
+inline constexpr double kAssumedPeatGravity = 1.5;
 /// Accepted specific gravity (-): organic soils come down to 1.4, heavy ores to 5 and more.
 inline constexpr Range kSpecificGravity{1.0, 8.0, true, false};
 /// Accepted void ratio (-); fluid muds reach 30.

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "datasets/input_error.hpp"
 
@@ -57,6 +58,10 @@ std::string read_text_file(const std::filesystem::path& file, const ReadOptions&
     throw InputError({file}, "file size", fmt::format("{} bytes", size),
                      fmt::format("at most {} bytes unless the size limit is raised", limit));
   }
+  return checked_text(std::move(text), file);
+}
+
+std::string checked_text(std::string text, const std::filesystem::path& file) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   if (text.empty()) throw InputError({file}, "file", "it is empty", "a text file");
   if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {

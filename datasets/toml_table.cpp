@@ -6,7 +6,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "datasets/toml_precheck.hpp"
 
 namespace isotach::datasets {
 namespace {
@@ -35,6 +38,16 @@ const toml::node* TomlTable::find(std::string_view key) {
 
 bool TomlTable::has(std::string_view key) {
   return find(key) != nullptr;
+}
+
+bool TomlTable::is_text(std::string_view key) {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_string();
+}
+
+bool TomlTable::is_table(std::string_view key) {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_table();
 }
 
 FilePlace TomlTable::place() const {
@@ -86,6 +99,32 @@ std::optional<bool> TomlTable::boolean_if(std::string_view key) {
   if (node == nullptr) return std::nullopt;
   if (!node->is_boolean()) throw error(key, describe(*node), "true or false");
   return node->value<bool>();
+}
+
+std::optional<int> TomlTable::integer_if(std::string_view key, const Range& accepted) {
+  const auto value = number_if(key, accepted);
+  if (!value) return std::nullopt;
+  if (*value != std::round(*value)) {
+    throw error(key, fmt::format("{} is not a whole number", *value),
+                fmt::format("a whole number {}", accepted.words()));
+  }
+  return static_cast<int>(*value);
+}
+
+std::optional<std::string> TomlTable::text_if(std::string_view key) {
+  if (!has(key)) return std::nullopt;
+  return text(key);
+}
+
+std::optional<std::string> TomlTable::text_or_number_if(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_string()) return value->get();
+  if (const auto* value = node->as_integer()) return fmt::format("{}", value->get());
+  if (const auto* value = node->as_floating_point(); value != nullptr && std::isfinite(value->get())) {
+    return fmt::format("{}", value->get());
+  }
+  throw error(key, describe(*node), "text in quotes or a number");
 }
 
 std::string TomlTable::text(std::string_view key) {
@@ -167,9 +206,16 @@ void TomlTable::reject_unknown_keys() const {
 }
 
 TomlDocument TomlDocument::read(const std::filesystem::path& file, const ReadOptions& options) {
-  const std::string text = read_text_file(file, options);
+  return parse(read_text_file(file, options), file);
+}
+
+TomlDocument TomlDocument::parse(std::string text, const std::filesystem::path& file) {
+  const std::string checked = checked_text(std::move(text), file);
+  if (const auto defect = find_toml_defect(checked)) {
+    throw InputError({file, defect->line}, "TOML syntax", defect->what, "valid TOML");
+  }
   try {
-    auto content = std::make_unique<const Content>(Content{file, toml::parse(text)});
+    auto content = std::make_unique<const Content>(Content{file, toml::parse(checked)});
     if (content->root.empty()) throw InputError({file}, "file", "it is empty: no key at all", "a TOML file");
     return TomlDocument(std::move(content));
   } catch (const toml::parse_error& error) {

@@ -26,12 +26,20 @@ namespace isotach::datasets {
 class TomlTable {
  public:
   [[nodiscard]] bool has(std::string_view key);
+  /// Whether the key holds a string, or a table.
+  [[nodiscard]] bool is_text(std::string_view key);
+  [[nodiscard]] bool is_table(std::string_view key);
 
   [[nodiscard]] double number(std::string_view key, const Range& accepted);
   [[nodiscard]] std::optional<double> number_if(std::string_view key, const Range& accepted);
   [[nodiscard]] std::optional<bool> boolean_if(std::string_view key);
+  /// A whole number; `accepted` lies within those of int.
+  [[nodiscard]] std::optional<int> integer_if(std::string_view key, const Range& accepted);
   /// A string that is not empty.
   [[nodiscard]] std::string text(std::string_view key);
+  [[nodiscard]] std::optional<std::string> text_if(std::string_view key);
+  /// A string, or a number as the shortest text that reads back as it.
+  [[nodiscard]] std::optional<std::string> text_or_number_if(std::string_view key);
   /// The index in `accepted` of the key's string.
   [[nodiscard]] std::optional<std::size_t> choice_if(std::string_view key,
                                                      std::span<const std::string_view> accepted);
@@ -82,6 +90,9 @@ class TomlDocument {
  public:
   /// InputError: whatever read_text_file refuses, a syntax error (with its line), a file without any key.
   [[nodiscard]] static TomlDocument read(const std::filesystem::path& file, const ReadOptions& options);
+
+  /// The same of a text in memory; `file` is only named in messages.
+  [[nodiscard]] static TomlDocument parse(std::string text, const std::filesystem::path& file);
 
   [[nodiscard]] TomlTable root() const { return {content_->root, content_->file, ""}; }
 

@@ -119,6 +119,9 @@ TEST_F(OedometerTestFile, ImpossibleReadingsAreRefused) {
                  {"crs.csv:2: column axial_strain: \"5\" is out of range", "> -1 and < 1"});
   expect_refused("time_s,height_mm,axial_stress_kPa\n0,0,1\n",
                  {"crs.csv:2: column height_mm: \"0\"", "> 0 and < 40"});
+  // within the column's range, but 1 - 1e-300/20 is 1 in double precision
+  expect_refused("time_s,height_mm,axial_stress_kPa\n0,1e-300,1\n",
+                 {"crs.csv:2: column height_mm: it means a strain of 1"});
   expect_refused("time_s,settlement_mm,axial_stress_kPa\n0,20,1\n", {"column settlement_mm: \"20\"", "< 20"});
   expect_refused("time_s,axial_strain,axial_stress_kPa\n0,0,abc\n",
                  {"crs.csv:2: column axial_stress_kPa: \"abc\""});

@@ -331,6 +331,14 @@ TEST_F(StudyFile, WhatIsNoTomlFileIsRefused) {
   refused("# only a comment\n", {"study.toml: file: it is empty"});
   refused("[material]\ne100 = = 3\n", {"study.toml:2: TOML syntax"});
   refused("[material]\nlambda = 1\nlambda = 2\n", {"study.toml:3: TOML syntax"});
+  refused("note = \"\"\"\n[)\n\"\"\"\nlist = [\n[+1],\n[]]\n[)]\n",
+          {"study.toml:7: TOML syntax: a table header that begins with no key"});
+  refused("[ [ +a ]\n", {"study.toml:1: TOML syntax"});
+  refused("a = [1,\n [2}]\n", {"study.toml:2: TOML syntax: a bracket closed by one of another kind"});
+  refused("a = 1\n[[\nb]]\n", {"study.toml:2: TOML syntax"});
+  refused("[\xC3\xA9]\n", {"study.toml:1: TOML syntax"});
+  refused("note = \"\xC3\xA9\" # \xC3\xA9\n\xC3\xA9 = 1\n", {"study.toml:2: TOML syntax", "not in quotes"});
+  refused("note = \"\"\"\\\n \xC3\xA9\"\"\"\n", {"study.toml:2: TOML syntax", "line-ending backslash"});
   expect_input_error([&] { static_cast<void>(read_study(folder_.path())); }, {"it is a directory"});
 }
 
