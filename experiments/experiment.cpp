@@ -3,47 +3,72 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace isotach::experiments {
 
 namespace {
 
 // Steps large against the noise of a simulation and small against the range of a parameter.
+constexpr double kRelativeStep = 0.03;
+
 double difference_step(model::ParameterId id, double value) {
-  constexpr double kRelative = 0.03;
   constexpr double kLeast = 0.02;  // of a parameter that may be zero
-  return model::may_be_zero(id) ? std::max(kLeast, kRelative * value) : kRelative * value;
+  return model::may_be_zero(id) ? std::max(kLeast, kRelativeStep * value) : kRelativeStep * value;
 }
 
 }  // namespace
 
+std::vector<Channel> Experiment::channels() const {
+  Channel channel;
+  channel.quantity = quantity();
+  channel.values.resize(measured().size());
+  std::iota(channel.values.begin(), channel.values.end(), std::size_t{0});
+  channel.chains = {0};
+  if (!noise().empty()) channel.stated_level = noise().front();
+  channel.known_variance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(measured().size()));
+  return {std::move(channel)};
+}
+
+std::vector<double> Experiment::local_values() const {
+  std::vector<double> values;
+  for (const LocalQuantity& local : locals()) values.push_back(local.value);
+  return values;
+}
+
 tl::expected<Linearisation, PredictionFailure> Experiment::linearise(
-    const model::Parameters<double>& parameters, std::span<const model::ParameterId> with_respect_to) const {
-  auto centre = predict(parameters);
+    const model::Parameters<double>& parameters, std::span<const double> local,
+    const Eigen::MatrixXd& directions) const {
+  auto centre = predict(parameters, local);
   if (!centre) return tl::unexpected(centre.error());
   Linearisation result{std::move(*centre), {}};
   const auto rows = static_cast<Eigen::Index>(result.values.size());
-  result.jacobian.resize(rows, static_cast<Eigen::Index>(with_respect_to.size()));
-  for (std::size_t k = 0; k < with_respect_to.size(); ++k) {
-    const model::ParameterId id = with_respect_to[k];
-    const double step = difference_step(id, parameters[id]);
+  result.jacobian = Eigen::MatrixXd::Zero(rows, directions.cols());
+  for (std::size_t k = 0; k < model::kParameterCount + local.size(); ++k) {
+    const auto input = static_cast<Eigen::Index>(k);
+    if (directions.row(input).isZero(0.0)) continue;
+    const bool material = k < model::kParameterCount;
+    const auto id = static_cast<model::ParameterId>(k);
+    const double step =
+        material ? difference_step(id, parameters[id]) : kRelativeStep * local[k - model::kParameterCount];
     // one-sided where the other side is not admissible
     Values ends[2] = {result.values, result.values};
     double width = 0.0;
     for (const int side : {0, 1}) {
       model::ParameterValues<double> moved = parameters.values();
-      moved[id] += side == 0 ? -step : step;
+      std::vector<double> moved_local(local.begin(), local.end());
+      (material ? moved[id] : moved_local[k - model::kParameterCount]) += side == 0 ? -step : step;
       const auto admissible = model::Parameters<double>::create(moved);
       if (!admissible) continue;
-      auto values = predict(*admissible);
+      auto values = predict(*admissible, moved_local);
       if (!values) return tl::unexpected(values.error());
       ends[side] = std::move(*values);
       width += step;
     }
+    if (!(width > 0.0)) continue;
     for (Eigen::Index row = 0; row < rows; ++row) {
       const auto i = static_cast<std::size_t>(row);
-      result.jacobian(row, static_cast<Eigen::Index>(k)) =
-          width > 0.0 ? (ends[1][i] - ends[0][i]) / width : 0.0;
+      result.jacobian.row(row) += (ends[1][i] - ends[0][i]) / width * directions.row(input);
     }
   }
   return result;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
@@ -22,13 +24,35 @@ struct PredictionFailure {
 /// Values aligned with the data.
 using Values = std::vector<double>;
 
-/// Predicted values and their derivatives with respect to parameters (SI).
-struct Linearisation {
-  Values values;
-  Eigen::MatrixXd jacobian;  ///< one row a value, one column a parameter asked for
+/// A quantity of one test that a fit may move along with the material: K0 or OCR of its start.
+struct LocalQuantity {
+  std::string name;  ///< "K0", "OCR"
+  double value;      ///< as the study gives it (-)
+  double lower;      ///< bounds, lower < upper
+  double upper;
+  bool logarithmic;                 ///< moved as its logarithm
+  std::optional<double> std_error;  ///< of the prior around `value`, of the logarithm where that moves
 };
 
-/// A protocol, measured data and their noise.
+/// Predicted values and their derivatives along directions of the inputs.
+struct Linearisation {
+  Values values;
+  Eigen::MatrixXd jacobian;  ///< one row a value, one column a direction
+};
+
+/// A series of values with one kind of noise, as they were read.
+struct Channel {
+  std::string_view quantity;        ///< with its unit in brackets
+  std::vector<std::size_t> values;  ///< indices of its values, in order
+  std::vector<std::size_t> chains;  ///< positions in `values` at which a series begins anew; the first is 0
+  Eigen::VectorXd inverse_stress;   ///< 1/stress (1/Pa), where noise has a floor of stress; else empty
+  double stated_level = 0.0;        ///< standard deviation stated, beside floor and known part
+  double stated_floor = 0.0;        ///< Pa
+  Eigen::VectorXd known_variance;   ///< of each value, not to be estimated: strain's reading times the slope
+};
+
+/// A protocol, measured data and their noise. Its inputs are the material's parameters, in SI and the order
+/// of ParameterId, and behind them the test's local quantities.
 class Experiment {
  public:
   virtual ~Experiment() = default;
@@ -41,16 +65,26 @@ class Experiment {
   [[nodiscard]] virtual std::string_view quantity() const = 0;
   /// Standard deviation of each measured value, > 0.
   [[nodiscard]] virtual const Values& noise() const = 0;
+  /// The values by kind; every value is in one of them. By default one channel without a floor.
+  [[nodiscard]] virtual std::vector<Channel> channels() const;
+  /// What a fit moves besides the material, in this test alone.
+  [[nodiscard]] virtual std::vector<LocalQuantity> locals() const { return {}; }
 
+  /// `local` has a value for each of locals().
   [[nodiscard]] virtual tl::expected<Values, PredictionFailure> predict(
-      const model::Parameters<double>& parameters) const = 0;
+      const model::Parameters<double>& parameters, std::span<const double> local) const = 0;
 
-  /// Prediction with derivatives. By default central differences; exact where the experiment overrides it.
+  /// Prediction with derivatives; `directions` has a row for each input and a column for each derivative
+  /// asked for. By default central differences by those inputs that move; exact where the experiment
+  /// overrides it.
   [[nodiscard]] virtual tl::expected<Linearisation, PredictionFailure> linearise(
-      const model::Parameters<double>& parameters, std::span<const model::ParameterId> with_respect_to) const;
+      const model::Parameters<double>& parameters, std::span<const double> local,
+      const Eigen::MatrixXd& directions) const;
 
   /// (predicted - measured)/noise of each value.
   [[nodiscard]] Values scaled_residuals(const Values& predicted) const;
+  /// locals() as the study gives them.
+  [[nodiscard]] std::vector<double> local_values() const;
 };
 
 /// Root mean square, 0 for no values.

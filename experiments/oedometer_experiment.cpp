@@ -1,144 +1,219 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/oedometer_experiment.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
-#include "experiments/strain_history.hpp"
-#include "integrators/fellin_ostermann.hpp"
+#include "experiments/oedometer_path.hpp"
+#include "integrators/integrate.hpp"
 
 namespace isotach::experiments {
 
 namespace {
 
-constexpr double kIntegrationTolerance = 4e-6;  // relative; far below any reading's noise
-
-/// Largest |d ln sigma/d strain| of a stage as its ends show it: what a strain reading's noise does to ln
-/// sigma.
-std::vector<double> stage_slopes(const datasets::OedometerRecord& record,
-                                 std::span<const datasets::OedometerRow> rows) {
-  std::vector<double> slopes(rows.size(), 0.0);
-  for (std::size_t begin = 0; begin < rows.size();) {
-    std::size_t end = begin + 1;
-    while (end < rows.size() && rows[end].stage == rows[begin].stage) ++end;
-    const double strain = rows[end - 1].axial_strain - rows[begin].axial_strain;
-    if (!holds_strain(record, rows[begin].stage) && strain != 0.0) {
-      const double slope = std::abs(std::log(rows[end - 1].axial_stress / rows[begin].axial_stress) / strain);
-      for (std::size_t i = begin; i < end; ++i) slopes[i] = slope;
-    }
-    begin = end;
-  }
-  return slopes;
-}
-
-}  // namespace
-
-OedometerExperiment::OedometerExperiment(datasets::OedometerTest test) : test_(std::move(test)) {
-  const auto& all = test_.record.rows;
-  const std::vector<double> strain = commanded_strain(test_.record);
-  if (test_.initial_axial_stress) {
-    start_ = {0.0, 0.0, *test_.initial_axial_stress, test_.initial_K0, test_.void_ratio};
-    // a first row at time 0 is the start itself
-    first_row_ = all.front().time > 0.0 ? 0 : 1;
-  } else {
-    start_ = {all.front().time, strain.front(), all.front().axial_stress, test_.initial_K0,
-              (1.0 + test_.void_ratio) * (1.0 - strain.front()) - 1.0};
-    first_row_ = 1;
-  }
-  const std::vector<double> slopes = stage_slopes(test_.record, rows());
-  double time = start_.time;
-  double height = 1.0 - start_.axial_strain;  // present over first height
-  double void_ratio = start_.void_ratio;
-  for (std::size_t i = 0; i < rows().size(); ++i) {
-    const datasets::OedometerRow& row = rows()[i];
-    const double next_height = 1.0 - strain[first_row_ + i];
-    steps_.push_back({row.time - time, std::log(height / next_height)});
-    void_ratio = (1.0 + void_ratio) * next_height / height - 1.0;
-    void_ratios_.push_back(void_ratio);
-    time = row.time;
-    height = next_height;
-
-    log_stress_.push_back(std::log(row.axial_stress));
-    const double floor = test_.noise.stress_floor / row.axial_stress;
-    const double from_strain = test_.noise.strain * slopes[i];
-    noise_.push_back(std::sqrt(test_.noise.stress_relative * test_.noise.stress_relative + floor * floor +
-                               from_strain * from_strain));
-  }
-}
-
-std::optional<double> OedometerExperiment::first_loading_rate() const {
-  double strain = 0.0;
-  double time = 0.0;
-  for (std::size_t i = 0; i < rows().size(); ++i) {
-    if (rows()[i].stage == datasets::Stage::load) {
-      strain += steps_[i].strain;
-      time += steps_[i].duration;
-    } else if (time > 0.0) {
-      break;
-    }
-  }
-  if (!(strain > 0.0 && time > 0.0)) return std::nullopt;
-  return strain / time;
+/// f with the form of the state that the parameters ask for.
+template <class S, class F>
+auto in_smallest_form(const model::Parameters<S>& parameters, F&& f) {
+  return parameters.rotates() ? f.template operator()<model::Fabric::omega>()
+                              : f.template operator()<model::Fabric::none>();
 }
 
 template <class S>
-tl::expected<std::vector<S>, PredictionFailure> OedometerExperiment::predict_log_stress(
-    const model::Parameters<S>& parameters) const {
-  using std::log;
+tl::expected<std::vector<S>, PredictionFailure> predict_with(const model::Parameters<S>& parameters,
+                                                             const datasets::OedometerTest& test,
+                                                             const OedometerProtocol& protocol,
+                                                             std::span<const S> local) {
   const model::Law<S> law(parameters);
-  model::State<S> state;
-  state.stress.setConstant(S(0.0));
-  state.stress[0] = S(-start_.axial_stress);
-  state.stress[1] = state.stress[2] = S(-start_.axial_stress * start_.K0);
-  state.void_ratio = S(start_.void_ratio);
-  integrators::Tolerance tolerance;
-  tolerance.relative = kIntegrationTolerance;
-
-  std::vector<S> log_stress;
-  log_stress.reserve(steps_.size());
-  double substep = 0.0;
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    model::Mandel<S> strain_rate = model::Mandel<S>::Constant(S(0.0));
-    strain_rate[0] = S(-steps_[i].strain / steps_[i].duration);
-    const auto increment = integrators::strain_increment<S>(strain_rate, steps_[i].duration);
-    auto result = integrators::integrate_fellin_ostermann(law, state, increment, tolerance, substep);
-    if (!result) {
-      return tl::unexpected(PredictionFailure{fmt::format(
-          "{}: between time {:.6g} s and {:.6g} s (line {}): {}", test_.name,
-          rows()[i].time - steps_[i].duration, rows()[i].time, rows()[i].line, result.error().message())});
-    }
-    state = result->state;
-    substep = result->next_substep;
-    log_stress.push_back(log(-state.stress[0]));
-  }
-  return log_stress;
+  return in_smallest_form(parameters, [&]<model::Fabric K>() {
+    return detail::predict_values<S, K>(law, test, protocol, local);
+  });
 }
 
-tl::expected<Values, PredictionFailure> OedometerExperiment::predict(
-    const model::Parameters<double>& parameters) const {
-  return predict_log_stress(parameters);
-}
-
-tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise(
-    const model::Parameters<double>& parameters, std::span<const model::ParameterId> with_respect_to) const {
-  using Jet = ceres::Jet<double, static_cast<int>(model::kParameterCount)>;
+/// Prediction with derivatives along up to `Width` directions.
+template <int Width>
+tl::expected<Linearisation, PredictionFailure> linearise_with(const model::Parameters<double>& parameters,
+                                                              const datasets::OedometerTest& test,
+                                                              const OedometerProtocol& protocol,
+                                                              std::span<const double> local,
+                                                              const Eigen::MatrixXd& directions) {
+  using Jet = ceres::Jet<double, Width>;
+  const Eigen::Index columns = directions.cols();
+  const auto jet = [&](double value, std::size_t input) {
+    Jet result(value);
+    result.v.head(columns) = directions.row(static_cast<Eigen::Index>(input)).transpose();
+    return result;
+  };
   model::ParameterValues<Jet> values;
   values.lode = parameters.lode();
-  for (const auto& parameter : model::kParameterTable) values[parameter.id] = Jet(parameters[parameter.id]);
-  for (std::size_t k = 0; k < with_respect_to.size(); ++k) {
-    values[with_respect_to[k]].v[static_cast<Eigen::Index>(k)] = 1.0;
+  for (std::size_t i = 0; i < model::kParameterCount; ++i) {
+    values.values[i] = jet(parameters[static_cast<model::ParameterId>(i)], i);
   }
-  const auto jets = predict_log_stress(*model::Parameters<Jet>::create(values));
+  std::vector<Jet> local_jets;
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    local_jets.push_back(jet(local[k], model::kParameterCount + k));
+  }
+  const auto jets = predict_with<Jet>(*model::Parameters<Jet>::create(values), test, protocol, local_jets);
   if (!jets) return tl::unexpected(jets.error());
-
   Linearisation result;
-  const auto columns = static_cast<Eigen::Index>(with_respect_to.size());
   result.jacobian.resize(static_cast<Eigen::Index>(jets->size()), columns);
   result.values.reserve(jets->size());
   for (std::size_t i = 0; i < jets->size(); ++i) {
     result.values.push_back((*jets)[i].a);
     result.jacobian.row(static_cast<Eigen::Index>(i)) = (*jets)[i].v.head(columns).transpose();
+  }
+  return result;
+}
+
+PathPoint path_point(const model::Law<double>& law, double time, std::size_t row,
+                     const model::State<double>& state, double void_ratio_at_start,
+                     const OedometerStart& start) {
+  return {time,
+          row,
+          -state.stress[0],
+          detail::axial_strain_of(state.void_ratio, void_ratio_at_start, start),
+          state.void_ratio,
+          state.stress[1] / state.stress[0],
+          law.overconsolidation_ratio(state)};
+}
+
+}  // namespace
+
+OedometerExperiment::OedometerExperiment(datasets::OedometerTest test)
+    : test_(std::move(test)), protocol_(make_protocol(test_)) {
+  if (protocol_.values.empty()) {
+    throw std::invalid_argument(test_.name +
+                                ": no reading is left to be compared behind the one it starts from");
+  }
+  for (const ComparedValue& value : protocol_.values) {
+    measured_.push_back(value.measured);
+    noise_.push_back(value.noise);
+  }
+}
+
+std::string_view OedometerExperiment::quantity() const {
+  const auto is_strain = [](const ComparedValue& value) { return value.kind == ValueKind::strain; };
+  if (std::all_of(values().begin(), values().end(), is_strain)) return "axial strain (-)";
+  if (std::none_of(values().begin(), values().end(), is_strain)) return "ln(axial effective stress)";
+  return "ln(axial effective stress), axial strain (-) where stress was held";
+}
+
+std::vector<Channel> OedometerExperiment::channels() const {
+  std::vector<Channel> channels;
+  for (const ValueKind kind : {ValueKind::log_stress, ValueKind::strain}) {
+    Channel channel;
+    const bool is_stress = kind == ValueKind::log_stress;
+    channel.quantity = is_stress ? "ln(axial effective stress)" : "axial strain (-)";
+    channel.stated_level = is_stress ? test_.noise.stress_relative : test_.noise.strain;
+    channel.stated_floor = is_stress ? test_.noise.stress_floor : 0.0;
+    bool opens = true;
+    for (std::size_t i = 0; i < values().size(); ++i) {
+      opens = opens || values()[i].opens_chain;
+      if (values()[i].kind != kind) continue;
+      if (opens) channel.chains.push_back(channel.values.size());
+      opens = false;
+      channel.values.push_back(i);
+    }
+    if (channel.values.empty()) continue;
+    const auto count = static_cast<Eigen::Index>(channel.values.size());
+    channel.known_variance.resize(count);
+    if (is_stress) channel.inverse_stress.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const ComparedValue& value = values()[channel.values[static_cast<std::size_t>(i)]];
+      channel.known_variance[i] = value.known_variance;
+      if (is_stress) channel.inverse_stress[i] = 1.0 / row_of(value).axial_stress;
+    }
+    channels.push_back(std::move(channel));
+  }
+  return channels;
+}
+
+std::vector<LocalQuantity> OedometerExperiment::locals() const {
+  std::vector<LocalQuantity> result;
+  if (test_.free_K0.moves) {
+    result.push_back({"K0", test_.initial_K0, 0.15, 2.0, false, test_.free_K0.std_error});
+  }
+  if (test_.initial_ocr && test_.free_ocr.moves) {
+    result.push_back({"OCR", *test_.initial_ocr, 0.05, 100.0, true, test_.free_ocr.std_error});
+  }
+  return result;
+}
+
+tl::expected<Values, PredictionFailure> OedometerExperiment::predict(
+    const model::Parameters<double>& parameters, std::span<const double> local) const {
+  return predict_with<double>(parameters, test_, protocol_, local);
+}
+
+tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise(
+    const model::Parameters<double>& parameters, std::span<const double> local,
+    const Eigen::MatrixXd& directions) const {
+  if (directions.cols() <= 4) return linearise_with<4>(parameters, test_, protocol_, local, directions);
+  if (directions.cols() <= 8) return linearise_with<8>(parameters, test_, protocol_, local, directions);
+  // in blocks of eight
+  Linearisation result;
+  for (Eigen::Index first = 0; first < directions.cols(); first += 8) {
+    const Eigen::Index count = std::min<Eigen::Index>(8, directions.cols() - first);
+    auto part = linearise_with<8>(parameters, test_, protocol_, local, directions.middleCols(first, count));
+    if (!part) return tl::unexpected(part.error());
+    if (first == 0) result.jacobian.resize(part->jacobian.rows(), directions.cols());
+    result.jacobian.middleCols(first, count) = part->jacobian;
+    result.values = std::move(part->values);
+  }
+  return result;
+}
+
+tl::expected<std::vector<PathPoint>, PredictionFailure> OedometerExperiment::path(
+    const model::Parameters<double>& parameters, std::span<const double> local, Route route) const {
+  const model::Law<double> law(parameters);
+  const auto start = detail::initial_state<double, model::Fabric::omega>(law, test_, protocol_.start, local);
+  if (!start) return tl::unexpected(start.error());
+  std::vector<PathPoint> points;
+  const auto add = [&](double time, std::size_t row, const model::State<double>& state) {
+    points.push_back(path_point(law, time, row, state, start->void_ratio, protocol_.start));
+  };
+  model::State<double> state = model::general(*start);
+  add(protocol_.start.time, protocol_.start.row, state);
+  if (route == Route::fellin_ostermann) {
+    auto failure = detail::follow<model::Fabric::omega>(
+        law, test_, protocol_, *start, [&](std::size_t step, double time, const auto& axial) {
+          add(time, protocol_.steps[step].row, model::general(axial));
+        });
+    if (failure) return tl::unexpected(std::move(*failure));
+    return points;
+  }
+  integrators::Options options;
+  options.method = integrators::Method::cvode;
+  double time = protocol_.start.time;
+  for (std::size_t i = 0; i < protocol_.steps.size(); ++i) {
+    const DriveStep& step = protocol_.steps[i];
+    integrators::Increment<double> increment;
+    increment.duration = step.duration;
+    if (step.stress_controlled) {
+      increment.stress_controlled[0] = true;
+      increment.stress_rate[0] = (-state.stress[0] - step.amount) / step.duration;
+    } else {
+      increment.strain_rate[0] = -step.amount / step.duration;
+    }
+    const auto result = integrators::integrate(law, state, increment, options);
+    if (!result) return tl::unexpected(detail::step_failure(test_, protocol_, i, time, result.error()));
+    state = result->state;
+    time += step.duration;
+    add(time, step.row, state);
+  }
+  return points;
+}
+
+Values OedometerExperiment::values_of(const std::vector<PathPoint>& path) const {
+  Values result;
+  for (const ComparedValue& value : values()) {
+    const PathPoint& point = path[value.step + 1];  // the first is the start
+    if (value.kind == ValueKind::log_stress) {
+      result.push_back(std::log(point.axial_stress));
+    } else {
+      const double origin = value.strain_origin == kNoRow ? 0.0 : path[value.strain_origin + 1].axial_strain;
+      result.push_back(point.axial_strain - origin);
+    }
   }
   return result;
 }

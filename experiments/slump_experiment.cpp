@@ -51,8 +51,8 @@ Values SlumpExperiment::distances(const mpm::SlumpResult& result) const {
   return values;
 }
 
-tl::expected<Values, PredictionFailure> SlumpExperiment::predict(
-    const model::Parameters<double>& parameters) const {
+tl::expected<Values, PredictionFailure> SlumpExperiment::predict(const model::Parameters<double>& parameters,
+                                                                 std::span<const double> /*local*/) const {
   const auto result = simulate(parameters);
   if (!result) return tl::unexpected(result.error());
   return distances(*result);

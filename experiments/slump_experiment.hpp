@@ -22,8 +22,8 @@ class SlumpExperiment final : public Experiment {
   [[nodiscard]] const Values& measured() const override { return zeros_; }
   [[nodiscard]] std::string_view quantity() const override { return "distance between outlines (m)"; }
   [[nodiscard]] const Values& noise() const override { return noise_; }
-  [[nodiscard]] tl::expected<Values, PredictionFailure> predict(
-      const model::Parameters<double>& parameters) const override;
+  [[nodiscard]] tl::expected<Values, PredictionFailure> predict(const model::Parameters<double>& parameters,
+                                                                std::span<const double> local) const override;
 
   [[nodiscard]] const datasets::SlumpTest& test() const { return test_; }
   /// The simulation behind predict().
