@@ -67,6 +67,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   OedometerFitOptions oedometer_options;
   oedometer_options.threads = options.threads;
   oedometer_options.control.stop = options.stop;
+  oedometer_options.depth = Depth::answer;
   SlumpFitOptions slump_options;
   slump_options.threads = options.threads;
   slump_options.control.stop = options.stop;
@@ -108,6 +109,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
     }
 
     const model::Parameters<double> after = found->parameters;
+    oedometer_options.start_from_data = false;  // the answer before is nearer
     auto refit = fit_oedometer(study, after, oedometer_list, oedometer_options);
     if (!refit) return tl::unexpected(refit.error());
     calibration.oedometer = std::move(*refit);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,18 @@ struct ParameterEstimate {
   double ci95_lower = 0.0;
   double ci95_upper = 0.0;
   Verdict verdict = Verdict::fixed;
+  std::string words{};  ///< why that verdict, in a sentence without its end; may be empty
+};
+
+/// A quantity of one test's start that the fit moved.
+struct LocalEstimate {
+  std::string name;  ///< "crs-1: K0"
+  double value = 0.0;
+  double std_error = 0.0;
+  double ci95_lower = 0.0;
+  double ci95_upper = 0.0;
+  Verdict verdict = Verdict::fixed;
+  std::string words{};
 };
 
 /// How a test is met.
@@ -42,14 +55,22 @@ struct Uncertainty {
   double inflation =
       1.0;  ///< factor on standard errors for misfit beyond the noise and for correlated residuals
   double autocorrelation = 0.0;  ///< lag-1, of residuals within tests
+  /// Degrees of freedom of the noise's estimate: intervals are Student's.
+  double degrees = std::numeric_limits<double>::infinity();
   /// Directions in coordinate space that the data do not see, unit norm.
   std::vector<Eigen::VectorXd> null_directions;
+
+  /// Half width of the 95 % interval in standard errors.
+  [[nodiscard]] double quantile() const;
+  /// Whether the coordinate takes part in a null direction.
+  [[nodiscard]] bool in_null_direction(std::size_t coordinate) const;
 };
 
 struct FitResult {
   std::optional<model::Parameters<double>> parameters;
-  std::vector<ParameterEstimate> estimates;  ///< all parameters, in the order of ParameterId
-  Eigen::MatrixXd correlation;               ///< of the coordinates
+  std::vector<ParameterEstimate> estimates;    ///< all parameters, in the order of ParameterId
+  std::vector<LocalEstimate> local_estimates;  ///< of tests' starts, as far as they moved
+  Eigen::MatrixXd correlation;                 ///< of the coordinates
   Uncertainty uncertainty;
   std::vector<TestSummary> tests;        ///< all, held-out ones included
   OptimiserResult main;                  ///< the route whose answer is reported
@@ -57,8 +78,9 @@ struct FitResult {
   double disagreement = 0.0;  ///< largest difference of the two routes' coordinates in standard errors
   GaugeChoice gauge;
   bool gauged = false;
-  std::vector<model::ParameterId> free;
-  bool adequate = false;  ///< every fitted test is met to within kAdequate times its noise
+  std::vector<model::ParameterId> free;  ///< the first of the coordinates
+  std::vector<Coordinate> coordinates;   ///< all
+  bool adequate = false;  ///< every fitted test is met to within kAdequate times its noise, stage by stage
   std::vector<std::string> warnings;
 };
 

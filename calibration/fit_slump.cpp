@@ -78,7 +78,7 @@ Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
                      int threads) {
   Experiments by_length;
   for (const std::size_t i : by_cost(all)) by_length.push_back(all[i]);
-  return Problem(by_length, Parametrisation(at, wanted, study.fit.bounds, GaugeChoice{}), threads);
+  return Problem(by_length, Parametrisation(at, wanted, {study.fit.bounds, {}}, GaugeChoice{}), threads);
 }
 
 }  // namespace
@@ -118,10 +118,11 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
                                                 const SlumpFitOptions& options) {
   const SlumpExperiments all = make_experiments(study, options.control.stop);
   const Problem problem = make_problem(all, study, found.parameters, wanted, options.threads);
-  const std::vector<double>& answer = problem.parametrisation().start();
+  const std::vector<double> answer = problem.parametrisation().start();
   SlumpFit fit;
   FitResult& result = fit.result;
   result.free = problem.parametrisation().free();
+  result.coordinates = problem.parametrisation().coordinates();
   result.main = found.search;
   result.warnings = found.warnings;
   result.parameters = found.parameters;

@@ -43,9 +43,11 @@ struct CeresOptions {
   int max_iterations = 100;
   double function_tolerance = 1e-12;
   double parameter_tolerance = 1e-10;
+  std::vector<std::size_t> held{};  ///< coordinates that stay where they start
 };
 
-/// Levenberg-Marquardt with bounds, from `start`.
+/// Levenberg-Marquardt with bounds, from `start`. Where a coordinate ends at its bound, the others are
+/// brought to their minimum there. A start that cannot be predicted ends at once, with infinite cost.
 [[nodiscard]] OptimiserResult minimise_with_ceres(const Problem& problem, const std::vector<double>& start,
                                                   const CeresOptions& options,
                                                   const OptimiserControl& control);
@@ -58,6 +60,28 @@ struct NloptOptions {
   int max_evaluations = 2000;
   int restarts = 0;  ///< further runs from the best point with smaller first steps
 };
+
+/// Global searches of NLopt within the bounds.
+enum class GlobalSearch {
+  crs2,   ///< controlled random search with local mutation
+  isres,  ///< improved stochastic ranking evolution strategy
+  esch,   ///< an evolutionary algorithm
+  mlsl    ///< multi-level single linkage over low-discrepancy points, BOBYQA as the local search
+};
+
+[[nodiscard]] std::string_view name_of(GlobalSearch search);
+
+struct GlobalOptions {
+  int max_evaluations = 1500;
+  std::vector<double> lower;  ///< of the box that is searched, within the problem's bounds
+  std::vector<double> upper;
+  unsigned seed = 1;
+};
+
+/// A global search, whose best point BOBYQA then polishes within the problem's bounds.
+[[nodiscard]] OptimiserResult search_globally(const Problem& problem, GlobalSearch search,
+                                              const std::vector<double>& start, const GlobalOptions& options,
+                                              const OptimiserControl& control);
 
 /// BOBYQA (quadratic models in a trust region, bounds) from `start`; COBYLA for a single coordinate, which
 /// BOBYQA does not take.

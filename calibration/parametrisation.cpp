@@ -32,40 +32,140 @@ datasets::Bounds default_bounds(model::ParameterId id) {
   return {0.0, 0.0};
 }
 
-Parametrisation::Parametrisation(
-    const model::Parameters<double>& start, const std::vector<model::ParameterId>& wanted,
-    const std::array<std::optional<datasets::Bounds>, model::kParameterCount>& bounds,
-    const GaugeChoice& gauge)
+namespace {
+
+CoordinatePrior prior_of(const datasets::Prior& prior, bool logarithmic) {
+  if (!logarithmic) return {prior.mean, prior.std_error};
+  return {std::log(prior.mean), prior.std_error / prior.mean};
+}
+
+}  // namespace
+
+Parametrisation::Parametrisation(const model::Parameters<double>& start,
+                                 const std::vector<model::ParameterId>& wanted,
+                                 const CoordinateSettings& settings, const GaugeChoice& gauge,
+                                 const Experiments& experiments)
     : base_(start.values()), gauge_(gauge) {
   for (const model::ParameterId id : wanted) {
     if (id == model::ParameterId::D_r && gauge.kind != datasets::Gauge::none) {
       gauged_ = gauge.kind == datasets::Gauge::crs_rate;
       continue;
     }
-    const datasets::Bounds range = bounds[static_cast<std::size_t>(id)].value_or(default_bounds(id));
+    const auto index = static_cast<std::size_t>(id);
+    const datasets::Bounds range = settings.bounds[index].value_or(default_bounds(id));
     const double value = std::clamp(start[id], range.lower, range.upper);
+    const bool log = !model::may_be_zero(id);
+    Coordinate coordinate;
+    coordinate.name = model::info(id).name;
+    coordinate.id = id;
+    coordinate.logarithmic = log;
+    coordinate.start = log ? std::log(value) : value;
+    coordinate.lower = log ? std::log(range.lower) : range.lower;
+    coordinate.upper = log ? std::log(range.upper) : range.upper;
+    if (settings.priors[index]) coordinate.prior = prior_of(*settings.priors[index], log);
     free_.push_back(id);
-    const bool log = logarithmic(free_.size() - 1);
-    start_.push_back(log ? std::log(value) : value);
-    lower_.push_back(log ? std::log(range.lower) : range.lower);
-    upper_.push_back(log ? std::log(range.upper) : range.upper);
+    coordinates_.push_back(std::move(coordinate));
   }
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    locals_.push_back(experiments[i]->local_values());
+    if (experiments[i]->held_out()) continue;
+    const auto locals = experiments[i]->locals();
+    for (std::size_t k = 0; k < locals.size(); ++k) {
+      const auto in_coordinate = [&](double value) {
+        return locals[k].logarithmic ? std::log(value) : value;
+      };
+      Coordinate coordinate;
+      coordinate.name = experiments[i]->name() + ": " + locals[k].name;
+      coordinate.experiment = i;
+      coordinate.local = k;
+      coordinate.logarithmic = locals[k].logarithmic;
+      coordinate.start = in_coordinate(std::clamp(locals[k].value, locals[k].lower, locals[k].upper));
+      coordinate.lower = in_coordinate(locals[k].lower);
+      coordinate.upper = in_coordinate(locals[k].upper);
+      if (locals[k].std_error) {
+        coordinate.prior = CoordinatePrior{in_coordinate(locals[k].value), *locals[k].std_error};
+      }
+      coordinates_.push_back(std::move(coordinate));
+    }
+  }
+}
+
+namespace {
+
+template <class F>
+std::vector<double> of_each(const std::vector<Coordinate>& coordinates, F&& f) {
+  std::vector<double> values;
+  for (const Coordinate& coordinate : coordinates) values.push_back(f(coordinate));
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> Parametrisation::start() const {
+  return of_each(coordinates_, [](const Coordinate& c) { return c.start; });
+}
+
+std::vector<double> Parametrisation::lower() const {
+  return of_each(coordinates_, [](const Coordinate& c) { return c.lower; });
+}
+
+std::vector<double> Parametrisation::upper() const {
+  return of_each(coordinates_, [](const Coordinate& c) { return c.upper; });
+}
+
+bool Parametrisation::at_bound(const std::vector<double>& x, std::size_t k) const {
+  constexpr double kAtBound = 1e-7;
+  return x[k] - coordinates_[k].lower < kAtBound || coordinates_[k].upper - x[k] < kAtBound;
+}
+
+std::vector<double> Parametrisation::inside(std::vector<double> x) const {
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    x[k] = std::clamp(x[k], coordinates_[k].lower, coordinates_[k].upper);
+  }
+  return x;
+}
+
+std::vector<double> Parametrisation::local_at(const std::vector<double>& x, std::size_t experiment) const {
+  if (experiment >= locals_.size()) return {};
+  std::vector<double> values = locals_[experiment];
+  for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
+    if (coordinates_[k].experiment == experiment) {
+      values[coordinates_[k].local] = coordinates_[k].quantity(x[k]);
+    }
+  }
+  return values;
 }
 
 tl::expected<Parametrisation::Tangent, std::string> Parametrisation::tangent(
     const std::vector<double>& x) const {
   using Jet = ceres::Jet<double, static_cast<int>(model::kParameterCount)>;
   std::vector<Jet> jets;
-  for (std::size_t k = 0; k < x.size(); ++k) jets.emplace_back(x[k], static_cast<int>(k));
+  for (std::size_t k = 0; k < free_.size(); ++k) jets.emplace_back(x[k], static_cast<int>(k));
   const auto parameters = at(jets);
   if (!parameters) return tl::unexpected(parameters.error());
   auto plain = at(x);
   if (!plain) return tl::unexpected(plain.error());
-  const auto columns = static_cast<Eigen::Index>(x.size());
-  Tangent result{*plain, Eigen::MatrixXd(static_cast<Eigen::Index>(model::kParameterCount), columns)};
+  Tangent result{*plain, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model::kParameterCount),
+                                               static_cast<Eigen::Index>(x.size()))};
+  const auto columns = static_cast<Eigen::Index>(free_.size());
   for (std::size_t i = 0; i < model::kParameterCount; ++i) {
-    result.derivative.row(static_cast<Eigen::Index>(i)) =
+    result.derivative.row(static_cast<Eigen::Index>(i)).head(columns) =
         (*parameters)[static_cast<model::ParameterId>(i)].v.head(columns).transpose();
+  }
+  return result;
+}
+
+Eigen::MatrixXd Parametrisation::directions(const Tangent& tangent, const std::vector<double>& x,
+                                            std::size_t experiment) const {
+  const std::size_t locals = experiment < locals_.size() ? locals_[experiment].size() : 0;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model::kParameterCount + locals),
+                                                 static_cast<Eigen::Index>(size()));
+  result.topRows(static_cast<Eigen::Index>(model::kParameterCount)) = tangent.derivative;
+  for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
+    const Coordinate& coordinate = coordinates_[k];
+    if (coordinate.experiment != experiment) continue;
+    result(static_cast<Eigen::Index>(model::kParameterCount + coordinate.local),
+           static_cast<Eigen::Index>(k)) = coordinate.logarithmic ? coordinate.quantity(x[k]) : 1.0;
   }
   return result;
 }

@@ -26,20 +26,14 @@ tl::expected<std::vector<Result>, experiments::PredictionFailure> for_all(std::s
 
 }  // namespace
 
-double Evaluation::cost() const {
-  double sum = 0.0;
-  for (const auto& residuals : scaled_residuals) {
-    sum += std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
-  }
-  return 0.5 * sum;
-}
-
 tl::expected<Evaluation, experiments::PredictionFailure> evaluate_all(
-    const Experiments& experiments, const model::Parameters<double>& parameters, int threads) {
+    const Experiments& experiments, const model::Parameters<double>& parameters,
+    const std::vector<std::vector<double>>& locals, int threads) {
   auto all = for_all<experiments::Values>(
       experiments.size(), threads,
       [&](std::size_t i) -> tl::expected<experiments::Values, experiments::PredictionFailure> {
-        const auto values = experiments[i]->predict(parameters);
+        const auto values =
+            experiments[i]->predict(parameters, locals.empty() ? experiments[i]->local_values() : locals[i]);
         if (!values) return tl::unexpected(values.error());
         return experiments[i]->scaled_residuals(*values);
       });
@@ -49,10 +43,14 @@ tl::expected<Evaluation, experiments::PredictionFailure> evaluate_all(
 
 Problem::Problem(const Experiments& experiments, Parametrisation parametrisation, int threads)
     : parametrisation_(std::move(parametrisation)), threads_(threads) {
-  for (const auto& experiment : experiments) {
-    if (experiment->held_out()) continue;
-    fitted_.push_back(experiment);
-    residual_count_ += experiment->measured().size();
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    if (experiments[i]->held_out()) continue;
+    fitted_.push_back(experiments[i]);
+    index_.push_back(i);
+    value_count_ += experiments[i]->measured().size();
+  }
+  for (std::size_t k = 0; k < parametrisation_.size(); ++k) {
+    if (parametrisation_.coordinates()[k].prior) priors_.push_back(k);
   }
 }
 
@@ -60,39 +58,105 @@ tl::expected<Evaluation, experiments::PredictionFailure> Problem::evaluate(
     const std::vector<double>& x) const {
   const auto parameters = parametrisation_.at(x);
   if (!parameters) return tl::unexpected(experiments::PredictionFailure{parameters.error()});
-  return evaluate_all(fitted_, *parameters, threads_);
+  std::vector<std::vector<double>> locals;
+  for (const std::size_t i : index_) locals.push_back(parametrisation_.local_at(x, i));
+  return evaluate_all(fitted_, *parameters, locals, threads_);
+}
+
+tl::expected<Eigen::VectorXd, experiments::PredictionFailure> Problem::residuals(
+    const std::vector<double>& x) const {
+  const auto evaluation = evaluate(x);
+  if (!evaluation) return tl::unexpected(evaluation.error());
+  Eigen::VectorXd residuals(static_cast<Eigen::Index>(residual_count()));
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < fitted_.size(); ++i) {
+    const auto& scaled = evaluation->scaled_residuals[i];
+    const auto count = static_cast<Eigen::Index>(scaled.size());
+    auto block = residuals.segment(row, count);
+    block = Eigen::Map<const Eigen::VectorXd>(scaled.data(), count);
+    if (!weights_.empty()) {
+      block.array() *= Eigen::Map<const Eigen::ArrayXd>(fitted_[i]->noise().data(), count);
+      weigh(i, block);
+    }
+    row += count;
+  }
+  append_priors(x, residuals, nullptr);
+  return residuals;
+}
+
+tl::expected<std::vector<experiments::Linearisation>, experiments::PredictionFailure> Problem::predictions(
+    const std::vector<double>& x) const {
+  const auto tangent = parametrisation_.tangent(x);
+  if (!tangent) return tl::unexpected(experiments::PredictionFailure{tangent.error()});
+  return for_all<experiments::Linearisation>(fitted_.size(), threads_, [&](std::size_t i) {
+    return fitted_[i]->linearise(tangent->parameters, parametrisation_.local_at(x, index_[i]),
+                                 parametrisation_.directions(*tangent, x, index_[i]));
+  });
 }
 
 tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(
     const std::vector<double>& x) const {
-  const auto tangent = parametrisation_.tangent(x);
-  if (!tangent) return tl::unexpected(experiments::PredictionFailure{tangent.error()});
-  // the gauge makes D_r move along with the coordinates
-  std::vector<model::ParameterId> moving = parametrisation_.free();
-  if (parametrisation_.gauged()) moving.push_back(model::ParameterId::D_r);
-  Eigen::MatrixXd chain(static_cast<Eigen::Index>(moving.size()), tangent->derivative.cols());
-  for (std::size_t k = 0; k < moving.size(); ++k) {
-    chain.row(static_cast<Eigen::Index>(k)) = tangent->derivative.row(static_cast<Eigen::Index>(moving[k]));
-  }
-
-  const auto all = for_all<experiments::Linearisation>(fitted_.size(), threads_, [&](std::size_t i) {
-    return fitted_[i]->linearise(tangent->parameters, moving);
-  });
+  const auto all = predictions(x);
   if (!all) return tl::unexpected(all.error());
-
   Linearised result;
-  result.residuals.resize(static_cast<Eigen::Index>(residual_count_));
-  result.jacobian.resize(static_cast<Eigen::Index>(residual_count_), chain.cols());
+  const auto rows = static_cast<Eigen::Index>(residual_count());
+  const auto columns = static_cast<Eigen::Index>(x.size());
+  // residuals and derivatives are weighted alike, so they go together
+  Eigen::MatrixXd both(rows, columns + 1);
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < fitted_.size(); ++i) {
-    const experiments::Values residuals = fitted_[i]->scaled_residuals((*all)[i].values);
-    const Eigen::MatrixXd jacobian = (*all)[i].jacobian * chain;
-    for (std::size_t k = 0; k < residuals.size(); ++k, ++row) {
-      result.residuals[row] = residuals[k];
-      result.jacobian.row(row) = jacobian.row(static_cast<Eigen::Index>(k)) / fitted_[i]->noise()[k];
+    const auto count = static_cast<Eigen::Index>(fitted_[i]->measured().size());
+    auto block = both.middleRows(row, count);
+    block.leftCols(columns) = (*all)[i].jacobian;
+    block.col(columns) = Eigen::Map<const Eigen::VectorXd>((*all)[i].values.data(), count) -
+                         Eigen::Map<const Eigen::VectorXd>(fitted_[i]->measured().data(), count);
+    if (weights_.empty()) {
+      block.array().colwise() /= Eigen::Map<const Eigen::ArrayXd>(fitted_[i]->noise().data(), count);
+    } else {
+      weigh(i, block);
     }
+    row += count;
+  }
+  result.residuals = both.col(columns);
+  result.jacobian = both.leftCols(columns);
+  append_priors(x, result.residuals, &result.jacobian);
+  if (!result.jacobian.allFinite() || !result.residuals.allFinite()) {
+    return tl::unexpected(
+        experiments::PredictionFailure{"the derivatives of a prediction by the parameters are not finite"});
   }
   return result;
+}
+
+void Problem::weigh(std::size_t fitted, Eigen::Ref<Eigen::MatrixXd> block) const {
+  Eigen::MatrixXd part;
+  for (const ChannelWeights& channel : weights_[fitted]) {
+    if (channel.values.size() == static_cast<std::size_t>(block.rows())) {
+      channel.whitening.whiten(block);  // the only channel: its values are all, in order
+      continue;
+    }
+    part.resize(static_cast<Eigen::Index>(channel.values.size()), block.cols());
+    for (std::size_t i = 0; i < channel.values.size(); ++i) {
+      part.row(static_cast<Eigen::Index>(i)) = block.row(static_cast<Eigen::Index>(channel.values[i]));
+    }
+    channel.whitening.whiten(part);
+    for (std::size_t i = 0; i < channel.values.size(); ++i) {
+      block.row(static_cast<Eigen::Index>(channel.values[i])) = part.row(static_cast<Eigen::Index>(i));
+    }
+  }
+}
+
+void Problem::append_priors(const std::vector<double>& x, Eigen::VectorXd& residuals,
+                            Eigen::MatrixXd* jacobian) const {
+  auto row = static_cast<Eigen::Index>(value_count_);
+  for (const std::size_t k : priors_) {
+    const CoordinatePrior& prior = *parametrisation_.coordinates()[k].prior;
+    residuals[row] = (x[k] - prior.mean) / prior.std_error;
+    if (jacobian != nullptr) {
+      jacobian->row(row).setZero();
+      (*jacobian)(row, static_cast<Eigen::Index>(k)) = 1.0 / prior.std_error;
+    }
+    ++row;
+  }
 }
 
 }  // namespace isotach::calibration

@@ -1,0 +1,95 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/multi_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "calibration/parallel.hpp"
+
+namespace isotach::calibration {
+
+namespace {
+
+constexpr double kSameAnswer = 0.5;  // standard errors
+
+/// Uniform in [0, 1), the same on every platform.
+double uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1.0p-53;
+}
+
+/// `count` points of a Latin hypercube in the unit cube.
+std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t dimension,
+                                                 std::mt19937_64& random) {
+  std::vector<std::vector<double>> points(count, std::vector<double>(dimension));
+  std::vector<std::size_t> order(count);
+  for (std::size_t k = 0; k < dimension; ++k) {
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = count; i > 1; --i) {
+      std::swap(order[i - 1], order[static_cast<std::size_t>(uniform(random) * static_cast<double>(i))]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      points[i][k] = (static_cast<double>(order[i]) + uniform(random)) / static_cast<double>(count);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+MultiStart multi_start(const Problem& problem, const std::vector<double>& first,
+                       const Eigen::MatrixXd& information, const MultiStartOptions& options,
+                       const OptimiserControl& control) {
+  MultiStart result;
+  result.starts = options.starts;
+  const auto count = static_cast<std::size_t>(std::max(0, options.starts));
+  std::mt19937_64 random(options.seed);
+  const auto& coordinates = problem.parametrisation().coordinates();
+  for (const auto& unit : latin_hypercube(count, first.size(), random)) {
+    std::vector<double> x = first;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double range = coordinates[k].upper - coordinates[k].lower;
+      const double half = coordinates[k].logarithmic ? options.spread : 0.5 * options.spread * range;
+      const double lower = std::max(coordinates[k].lower, first[k] - half);
+      const double upper = std::min(coordinates[k].upper, first[k] + half);
+      x[k] = lower + unit[k] * (upper - lower);
+    }
+    result.from.push_back(std::move(x));
+  }
+
+  Problem serial = problem;
+  serial.set_threads(1);
+  std::vector<std::optional<OptimiserResult>> found(count);
+  OptimiserControl quiet;
+  quiet.stop = control.stop;
+  parallel_for(count, options.threads, [&](std::size_t i) {
+    if (control.stop != nullptr && control.stop->load()) return;
+    // a start that the law cannot follow is drawn halfway towards the first one, which it can
+    constexpr int kTries = 6;
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+      OptimiserResult answer = minimise_with_ceres(serial, result.from[i], {}, quiet);
+      if (std::isfinite(answer.cost) && answer.evaluations > answer.failed_evaluations) {
+        found[i] = std::move(answer);
+        return;
+      }
+      for (std::size_t k = 0; k < first.size(); ++k) {
+        result.from[i][k] = 0.5 * (result.from[i][k] + first[k]);
+      }
+    }
+  });
+  std::vector<Answer> answers;
+  for (const auto& one : found) {
+    if (!one) {
+      ++result.failed;
+      continue;
+    }
+    answers.push_back({Eigen::Map<const Eigen::VectorXd>(one->coordinates.data(),
+                                                         static_cast<Eigen::Index>(one->coordinates.size())),
+                       one->cost});
+  }
+  result.clusters = cluster_answers(std::move(answers), information, kSameAnswer);
+  return result;
+}
+
+}  // namespace isotach::calibration
