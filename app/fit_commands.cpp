@@ -62,8 +62,10 @@ int fit_oedometer(const CommonOptions& options) {
   calibration::OedometerFitOptions fit_options;
   fit_options.threads = options.threads;
   fit_options.control.stop = &interrupted();
+  fit_options.progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); };
   fit_options.control.callback = [&](int evaluations, double cost) {
-    progress.update(HUGE_VAL, fmt::format("evaluation {}, cost {:.5g}", evaluations, cost));
+    constexpr double kSearch = 0.05;  // of the work; the assessment is the rest
+    progress.update(kSearch, fmt::format("evaluation {}, cost {:.5g}", evaluations, cost));
   };
   const auto fit = calibration::fit_oedometer(study, study.material, study.fit.oedometer, fit_options);
   if (!fit) return failed(output, run, fit.error());

@@ -11,6 +11,7 @@
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
 #include "reports/oedometer_report.hpp"
+#include "reports/oedometer_summary.hpp"
 #include "reports/slump_fit_report.hpp"
 
 namespace isotach::reports {
@@ -128,7 +129,7 @@ Page calibration_report(const RunInfo& run, const datasets::Study& study, const 
   page.paragraph("Verdicts on parameters. " + std::string(kVerdictNote));
   page.paragraph(
       "Below follow the last fits of the chain; the searches they show are those of the last round.");
-  add_oedometer_section(page, study, calibration.oedometer);
+  add_oedometer_sections(page, study, calibration.oedometer, "Oedometer: ");
   add_slump_fit_section(page, study, calibration.slump);
   return page;
 }

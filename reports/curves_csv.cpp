@@ -4,11 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "reports/estimates.hpp"
+#include "reports/file_stems.hpp"
+#include "reports/oedometer_curves_csv.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -17,73 +15,29 @@ using Column = std::vector<double>;
 
 constexpr double kMillimetres = 1e3;  // in a metre
 
-/// Unique stems of file names for tests of these names.
-class FileStems {
- public:
-  [[nodiscard]] std::string of(const std::string& test) {
-    std::string stem = test;
-    for (char& c : stem) {
-      const bool safe = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                        c == '-' || c == '_' || c == '.';
-      if (!safe) c = '_';
-    }
-    const std::string first = stem;
-    for (int number = 2; !used_.insert(stem).second; ++number) stem = fmt::format("{}_{}", first, number);
-    return stem;
-  }
-
- private:
-  std::set<std::string> used_;
-};
-
 void write_convergence(OutputDirectory& output, const std::string& name,
                        const calibration::FitResult& result) {
   std::vector<std::string> routes;
   Column evaluations;
   Column costs;
-  std::vector<Column> parameters(result.free.size());
+  std::vector<Column> quantities(result.coordinates.size());
   const auto add = [&](const calibration::OptimiserResult& route) {
     for (const calibration::TracePoint& point : route.trace) {
       routes.push_back(route.route);
       evaluations.push_back(point.evaluation);
       costs.push_back(point.cost);
-      for (std::size_t k = 0; k < result.free.size(); ++k) {
-        parameters[k].push_back(parameter_of_coordinate(result.free[k], point.coordinates[k]));
+      for (std::size_t k = 0; k < quantities.size(); ++k) {
+        quantities[k].push_back(quantity_at(result.coordinates[k], point.coordinates[k]));
       }
     }
   };
   add(result.main);
   if (result.check) add(*result.check);
   std::vector<CsvColumn> columns{{"route", routes}, {"evaluation", evaluations}, {"cost", costs}};
-  for (std::size_t k = 0; k < result.free.size(); ++k) {
-    columns.push_back({std::string(model::info(result.free[k]).key), parameters[k]});
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    columns.push_back({quantity_key(result.coordinates[k]), quantities[k]});
   }
   output.write_csv(name, columns);
-}
-
-void write_oedometer_test(OutputDirectory& output, const std::string& stem,
-                          const experiments::OedometerExperiment& test, const Column& scaled_residuals) {
-  Column time;
-  Column strain;
-  std::vector<std::string> stage;
-  Column measured;
-  Column fitted;
-  for (std::size_t i = 0; i < test.rows().size(); ++i) {
-    const datasets::OedometerRow& row = test.rows()[i];
-    time.push_back(row.time);
-    strain.push_back(row.axial_strain);
-    stage.emplace_back(datasets::name_of(row.stage));
-    measured.push_back(1e-3 * row.axial_stress);
-    fitted.push_back(measured.back() * std::exp(scaled_residuals[i] * test.noise()[i]));
-  }
-  const std::vector<CsvColumn> columns{{"time_s", time},
-                                       {"axial_strain", strain},
-                                       {"void_ratio", test.void_ratios()},
-                                       {"stage", stage},
-                                       {"measured_stress_kPa", measured},
-                                       {"fitted_stress_kPa", fitted},
-                                       {"residual_in_noise", scaled_residuals}};
-  output.write_csv(fmt::format("curves/oedometer/{}.csv", stem), columns);
 }
 
 /// Outlines in the format of a study's data.
@@ -132,11 +86,7 @@ void write_distances(OutputDirectory& output, const std::string& name,
 }  // namespace
 
 void write_curves(OutputDirectory& output, const calibration::OedometerFit& fit) {
-  FileStems stems;
-  for (std::size_t i = 0; i < fit.experiments.size(); ++i) {
-    write_oedometer_test(output, stems.of(fit.experiments[i]->name()), *fit.experiments[i],
-                         fit.evaluation.scaled_residuals[i]);
-  }
+  write_oedometer_curves(output, fit);
   write_convergence(output, "curves/oedometer_convergence.csv", fit.result);
 }
 

@@ -10,9 +10,8 @@ namespace isotach::reports {
 // Files are named after the tests; characters of a name that are not safe in file names become "_", and a
 // number follows where two names would become one.
 
-/// curves/oedometer/<test>.csv: time_s, axial_strain, void_ratio, stage, measured_stress_kPa,
-/// fitted_stress_kPa, residual_in_noise; curves/oedometer_convergence.csv: route, evaluation, cost and the
-/// coordinates' parameters.
+/// What write_oedometer_curves writes, and curves/oedometer_convergence.csv: route, evaluation, cost and the
+/// coordinates' quantities.
 void write_curves(OutputDirectory& output, const calibration::OedometerFit& fit);
 
 /// For each test curves/slump/<test>_outlines.csv (simulated: time_s, r_mm, z_mm, as the data format) and

@@ -23,12 +23,30 @@ calibration::ParameterEstimate in_key_unit(const calibration::ParameterEstimate&
   return result;
 }
 
-double parameter_of_coordinate(model::ParameterId id, double coordinate) {
-  return in_key_unit(id, model::may_be_zero(id) ? coordinate : std::exp(coordinate));
+double quantity_at(const calibration::Coordinate& coordinate, double x) {
+  const double si = coordinate.quantity(x);
+  return coordinate.id ? in_key_unit(*coordinate.id, si) : si;
 }
 
-std::string coordinate_name(model::ParameterId id) {
-  return (model::may_be_zero(id) ? "" : "ln ") + std::string(model::info(id).name);
+std::string coordinate_name(const calibration::Coordinate& coordinate) {
+  return (coordinate.logarithmic ? "ln " : "") + coordinate.name;
+}
+
+std::string quantity_name(const calibration::Coordinate& coordinate) {
+  if (!coordinate.id || model::info(*coordinate.id).unit == "-") return coordinate.name;
+  return fmt::format("{} ({})", coordinate.name, model::info(*coordinate.id).unit);
+}
+
+std::string quantity_key(const calibration::Coordinate& coordinate) {
+  return coordinate.id ? std::string(model::info(*coordinate.id).key) : coordinate.name;
+}
+
+std::vector<std::string> coordinate_names(const calibration::FitResult& result) {
+  std::vector<std::string> names;
+  for (const calibration::Coordinate& coordinate : result.coordinates) {
+    names.push_back(coordinate_name(coordinate));
+  }
+  return names;
 }
 
 bool is_free(const calibration::FitResult& result, model::ParameterId id) {

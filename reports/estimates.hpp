@@ -14,10 +14,17 @@ namespace isotach::reports {
 /// An estimate with all of its numbers in the unit of the parameter's key.
 [[nodiscard]] calibration::ParameterEstimate in_key_unit(const calibration::ParameterEstimate& estimate);
 
-/// The parameter, in the unit of its key, that a coordinate of a fit stands for.
-[[nodiscard]] double parameter_of_coordinate(model::ParameterId id, double coordinate);
-/// The coordinate's name: "ln kappa", "C_1".
-[[nodiscard]] std::string coordinate_name(model::ParameterId id);
+/// The quantity that a coordinate of a fit stands for at x: a parameter in the unit of its key, or one of a
+/// test's start.
+[[nodiscard]] double quantity_at(const calibration::Coordinate& coordinate, double x);
+/// The coordinate's name: "ln kappa", "C_1", "ln crs-1: OCR".
+[[nodiscard]] std::string coordinate_name(const calibration::Coordinate& coordinate);
+/// The quantity's name with its unit, if it has one: "D_r (1/s)", "crs-1: K0".
+[[nodiscard]] std::string quantity_name(const calibration::Coordinate& coordinate);
+/// The quantity's name in files: "D_r_per_s", "crs-1: K0".
+[[nodiscard]] std::string quantity_key(const calibration::Coordinate& coordinate);
+/// The names of all coordinates.
+[[nodiscard]] std::vector<std::string> coordinate_names(const calibration::FitResult& result);
 
 /// Whether the fit moved the parameter.
 [[nodiscard]] bool is_free(const calibration::FitResult& result, model::ParameterId id);

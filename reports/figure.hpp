@@ -23,9 +23,11 @@ enum class SeriesStyle {
   line,
   dashed,
   dotted,
+  thin_dashed,  ///< for lines that stand behind others
   points,       ///< filled markers, whose shape changes with the place in the figure, as the colour does
   open_points,  ///< outlined markers
   dots,         ///< small discs without shape, for thousands of points
+  discs,        ///< larger ones
   line_points,  ///< line through filled markers
 };
 

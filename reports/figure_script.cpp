@@ -148,7 +148,7 @@ std::string marker_commands(const MarkerLine& marker, const Figure& figure) {
 /// nothing to show.
 std::string point_rows(const Series& series, const Scales& scales, const Figure& figure) {
   const bool lone_points = series.style == SeriesStyle::points || series.style == SeriesStyle::open_points ||
-                           series.style == SeriesStyle::dots;
+                           series.style == SeriesStyle::dots || series.style == SeriesStyle::discs;
   const double cells = width_of(figure) / (lone_points ? kPointCell : kLineCell);
   const auto cell = [&](std::size_t i) {
     const auto index = [&](double position) {
@@ -205,12 +205,16 @@ std::string look(const Series& series, std::size_t place) {
       return "lines lw 1.8 dt (9,5)";
     case SeriesStyle::dotted:
       return "lines lw 1.8 dt (2,4)";
+    case SeriesStyle::thin_dashed:
+      return "lines lw 0.9 dt (6,4)";
     case SeriesStyle::points:
       return fmt::format("points pt {} ps 0.55", filled);
     case SeriesStyle::open_points:
       return fmt::format("points pt {} ps 0.6 lw 1.2", filled - 1);
     case SeriesStyle::dots:
       return "points pt 7 ps 0.22";
+    case SeriesStyle::discs:
+      return "points pt 7 ps 0.42";
     case SeriesStyle::line_points:
       return fmt::format("linespoints lw 1.3 pt {} ps 0.5", filled);
   }

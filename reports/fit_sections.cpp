@@ -53,9 +53,21 @@ Figure trace_figure(const FitResult& result, F&& f) {
 std::vector<std::string> texts_with(const std::vector<ParameterEstimate>& estimates, Verdict verdict) {
   std::vector<std::string> texts;
   for (const ParameterEstimate& estimate : estimates) {
-    if (estimate.verdict == verdict) texts.push_back(parameter_text(estimate));
+    if (estimate.verdict != verdict) continue;
+    const bool explained = verdict != Verdict::identified && !estimate.words.empty();
+    texts.push_back(parameter_text(estimate) + (explained ? fmt::format(" ({})", estimate.words) : ""));
   }
   return texts;
+}
+
+/// White at 0, deep blue at 1, deep orange at -1.
+Rgb correlation_colour(double value) {
+  const Rgb full = value < 0.0 ? palette_colour(1) : palette_colour(0);
+  const double share = 0.7 * std::min(1.0, std::abs(value));  // the number stays legible
+  const auto mix = [&](std::uint8_t colour) {
+    return static_cast<std::uint8_t>(std::lround(255.0 + share * (colour - 255.0)));
+  };
+  return {mix(full.red), mix(full.green), mix(full.blue)};
 }
 
 /// Tests of one kind and how far the worst of them is from the data.
@@ -102,14 +114,22 @@ std::string parameter_text(const ParameterEstimate& si) {
 
 std::string interval_text(const ParameterEstimate& si) {
   const ParameterEstimate estimate = in_key_unit(si);
-  const double width = estimate.ci95_upper - estimate.ci95_lower;
+  return interval_text(estimate.ci95_lower, estimate.ci95_upper);
+}
+
+int interval_digits(double lower, double upper) {
+  const double width = upper - lower;
+  if (!(width > 0.0 && std::isfinite(width))) return 4;
+  const double largest = std::max(std::abs(lower), std::abs(upper));
+  return std::clamp(static_cast<int>(std::ceil(std::log10(largest / width))) + 2, 2, 9);
+}
+
+std::string interval_text(double ci95_lower, double ci95_upper) {
+  const double width = ci95_upper - ci95_lower;
   if (!std::isfinite(width)) return kMissing;
-  // two digits of the width, so that the ends differ
-  const double largest = std::max(std::abs(estimate.ci95_lower), std::abs(estimate.ci95_upper));
-  const int digits = width > 0.0 ? static_cast<int>(std::ceil(std::log10(largest / width))) + 2 : 4;
-  const int shown = std::clamp(digits, 2, 9);
-  const std::string lower = format_number(estimate.ci95_lower, shown);
-  const std::string upper = format_number(estimate.ci95_upper, shown);
+  const int shown = interval_digits(ci95_lower, ci95_upper);
+  const std::string lower = format_number(ci95_lower, shown);
+  const std::string upper = format_number(ci95_upper, shown);
   const std::size_t power = lower.find("×");
   if (power == std::string::npos || !upper.ends_with(lower.substr(power))) {
     return fmt::format("{} to {}", lower, upper);
@@ -128,8 +148,9 @@ void add_parameter_verdicts(Page& page, const std::vector<ParameterEstimate>& es
   std::vector<std::string> undetermined;
   for (const ParameterEstimate& estimate : estimates) {
     if (estimate.verdict != Verdict::undetermined) continue;
-    undetermined.push_back(
-        fmt::format("{} (95 % interval {})", parameter_text(estimate), interval_text(estimate)));
+    undetermined.push_back(fmt::format("{} (95 % interval {}{}{})", parameter_text(estimate),
+                                       interval_text(estimate), estimate.words.empty() ? "" : "; ",
+                                       estimate.words));
   }
   if (!undetermined.empty()) {
     page.verdict(Tone::warning, fmt::format("These data do not determine {}: other values would do as well.",
@@ -170,15 +191,15 @@ Table parameter_table(const std::vector<ParameterEstimate>& estimates, std::stri
                       Meanings meanings) {
   using enum Alignment;
   Table table{.caption = std::move(caption),
-              .header = {"Parameter", "Value ± standard error", "95 % interval", "Unit", "Verdict"},
-              .alignment = {left, right, right, left, left}};
+              .header = {"Parameter", "Value ± standard error", "95 % interval", "Unit", "Verdict", "Why"},
+              .alignment = {left, right, right, left, left, left}};
   if (meanings == Meanings::shown) table.header.push_back("Meaning");
   for (const ParameterEstimate& si : estimates) {
     const ParameterEstimate estimate = in_key_unit(si);
     const model::ParameterInfo& info = model::info(si.id);
     table.rows.push_back({std::string(info.name), format_with_error(estimate.value, estimate.std_error),
                           interval_text(si), std::string(info.unit == "-" ? kMissing : info.unit),
-                          std::string(calibration::name_of(estimate.verdict))});
+                          std::string(calibration::name_of(estimate.verdict)), estimate.words});
     if (meanings == Meanings::shown) table.rows.back().emplace_back(info.meaning);
   }
   if (meanings == Meanings::shown) table.notes = {std::string(kVerdictNote)};
@@ -186,18 +207,26 @@ Table parameter_table(const std::vector<ParameterEstimate>& estimates, std::stri
 }
 
 Table correlation_table(const FitResult& result) {
-  Table table{
-      .caption = "Correlation of the fitted coordinates.", .header = {""}, .alignment = {Alignment::left}};
-  if (result.free.size() < 2) return table;
-  for (std::size_t i = 0; i < result.free.size(); ++i) {
-    table.header.push_back(coordinate_name(result.free[i]));
+  Table table{.caption = "Correlation of the fitted coordinates.",
+              .header = {""},
+              .alignment = {Alignment::left},
+              .notes = {"Near +1 or −1 two quantities can hardly be told apart: one makes up for a change of "
+                        "the other. Blue: positive, orange: negative, the deeper the closer to ±1."}};
+  const std::vector<std::string> names = coordinate_names(result);
+  if (names.size() < 2) return table;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    table.header.push_back(names[i]);
     table.alignment.push_back(Alignment::right);
-    std::vector<std::string> row{coordinate_name(result.free[i])};
-    for (std::size_t j = 0; j < result.free.size(); ++j) {
+    std::vector<std::string> row{names[i]};
+    std::vector<std::optional<Rgb>> shades{std::nullopt};
+    for (std::size_t j = 0; j < names.size(); ++j) {
       const double value = result.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      const bool shown = j < i && std::isfinite(value);
       row.push_back(j > i ? "" : format_number(std::round(100.0 * value) / 100.0, 2));
+      shades.push_back(shown ? std::optional(correlation_colour(value)) : std::nullopt);
     }
     table.rows.push_back(std::move(row));
+    table.shades.push_back(std::move(shades));
   }
   return table;
 }
@@ -207,10 +236,11 @@ std::vector<std::string> null_direction_sentences(const FitResult& result) {
   for (const Eigen::VectorXd& direction : result.uncertainty.null_directions) {
     constexpr double kNoPart = 1e-3;
     std::vector<std::string> parts;
-    for (std::size_t k = 0; k < result.free.size(); ++k) {
+    for (std::size_t k = 0; k < result.coordinates.size(); ++k) {
       const double part = direction[static_cast<Eigen::Index>(k)];
       if (std::abs(part) < kNoPart) continue;
-      parts.push_back(fmt::format("{} by {}", coordinate_name(result.free[k]), format_number(part, 3)));
+      parts.push_back(
+          fmt::format("{} by {}", coordinate_name(result.coordinates[k]), format_number(part, 3)));
     }
     sentences.push_back("The data do not see the following move: " + listed(parts) + ".");
   }
@@ -226,20 +256,19 @@ Figure cost_figure(const FitResult& result) {
 }
 
 Figure parameter_figure(const FitResult& result, std::size_t free_index) {
-  const model::ParameterInfo& info = model::info(result.free.at(free_index));
+  const calibration::Coordinate& coordinate = result.coordinates.at(free_index);
   Figure figure = trace_figure(result, [&](const calibration::TracePoint& point) {
-    return parameter_of_coordinate(info.id, point.coordinates[free_index]);
+    return quantity_at(coordinate, point.coordinates[free_index]);
   });
-  figure.y.label = info.unit == "-" ? std::string(info.name) : fmt::format("{} ({})", info.name, info.unit);
-  figure.caption = fmt::format("{} at the least cost so far.", info.name);
+  figure.y.label = quantity_name(coordinate);
+  figure.caption = fmt::format("{} at the least cost so far.", coordinate.name);
   return figure;
 }
 
-Table route_table(const FitResult& result) {
-  Table table{.caption = "How the answer was reached.", .header = {"", "", ""}};
-  const auto routes = routes_of(result);
-  table.header = {""};
-  table.alignment = {Alignment::left};
+Table route_table(const FitResult& result, const std::vector<OptimiserResult>& further) {
+  Table table{.caption = "How the answer was reached.", .header = {""}, .alignment = {Alignment::left}};
+  auto routes = routes_of(result);
+  for (const OptimiserResult& route : further) routes.push_back(&route);
   for (const OptimiserResult* route : routes) {
     table.header.push_back(route->route);
     table.alignment.push_back(Alignment::right);
@@ -250,12 +279,12 @@ Table route_table(const FitResult& result) {
     table.rows.push_back(std::move(cells));
   };
   constexpr int kDigits = 7;  // enough to see where routes part
-  for (std::size_t k = 0; k < result.free.size(); ++k) {
-    const model::ParameterInfo& info = model::info(result.free[k]);
-    row(info.unit == "-" ? std::string(info.name) : fmt::format("{} ({})", info.name, info.unit),
-        [&](const OptimiserResult& route) {
-          return format_number(parameter_of_coordinate(info.id, route.coordinates[k]), kDigits);
-        });
+  for (std::size_t k = 0; k < result.coordinates.size(); ++k) {
+    row(quantity_name(result.coordinates[k]), [&](const OptimiserResult& route) {
+      // a route that was stopped before it began has no place
+      if (k >= route.coordinates.size()) return std::string(kMissing);
+      return format_number(quantity_at(result.coordinates[k], route.coordinates[k]), kDigits);
+    });
   }
   row("cost", [](const OptimiserResult& route) { return format_number(route.cost, kDigits); });
   row("evaluations", [](const OptimiserResult& route) { return fmt::format("{}", route.evaluations); });

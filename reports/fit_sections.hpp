@@ -19,6 +19,11 @@ namespace isotach::reports {
 /// The 95 % interval in the unit of the parameter's key, "1.4136 to 1.4144"; kMissing where there is none.
 [[nodiscard]] std::string interval_text(const calibration::ParameterEstimate& estimate);
 
+/// Significant digits that show two of an interval's width, so that its ends differ.
+[[nodiscard]] int interval_digits(double lower, double upper);
+/// The same of an interval in the unit it is shown in.
+[[nodiscard]] std::string interval_text(double ci95_lower, double ci95_upper);
+
 /// Verdicts: one sentence each on those parameters that are well, weakly or not determined.
 void add_parameter_verdicts(Page& page, const std::vector<calibration::ParameterEstimate>& estimates);
 /// Verdict: whether every fitted test is met to within its noise, and how well those held out are predicted.
@@ -49,8 +54,9 @@ enum class Meanings { shown, left_out };
 [[nodiscard]] Figure cost_figure(const calibration::FitResult& result);
 /// Best value of one free parameter against evaluation, one line for each route.
 [[nodiscard]] Figure parameter_figure(const calibration::FitResult& result, std::size_t free_index);
-/// How the routes ended and what they found.
-[[nodiscard]] Table route_table(const calibration::FitResult& result);
+/// How the routes ended and what they found: the one reported, the check, if any, and `further` ones.
+[[nodiscard]] Table route_table(const calibration::FitResult& result,
+                                const std::vector<calibration::OptimiserResult>& further = {});
 
 /// Of a study's assumptions those on `subject`, with which they begin: "oedometer test".
 [[nodiscard]] std::vector<std::string> assumptions_on(const std::vector<std::string>& all,

@@ -2,6 +2,8 @@
 // The report of fit-oedometer.
 #pragma once
 
+#include <string_view>
+
 #include "calibration/fit_oedometer.hpp"
 #include "reports/page.hpp"
 #include "reports/run_info.hpp"
@@ -11,9 +13,10 @@ namespace isotach::reports {
 [[nodiscard]] Page oedometer_report(const RunInfo& run, const datasets::Study& study,
                                     const calibration::OedometerFit& fit);
 
-/// Its verdicts but those on parameters, for the summary of a page.
-void add_oedometer_verdicts(Page& page, const calibration::OedometerFit& fit);
-/// Its section: curves, residuals, uncertainty, search, gauge and data.
-void add_oedometer_section(Page& page, const datasets::Study& study, const calibration::OedometerFit& fit);
+/// Its sections behind the summary: curves, start values, residuals, uncertainty, search, robustness, data
+/// and definitions. What a fit has not, as one without assessment, is left out. `prefix` stands before their
+/// headings.
+void add_oedometer_sections(Page& page, const datasets::Study& study, const calibration::OedometerFit& fit,
+                            std::string_view prefix = {});
 
 }  // namespace isotach::reports

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
@@ -72,13 +73,19 @@ data unless_empty(const std::string& text) {
   return text.empty() ? data{false} : data{text};
 }
 
-/// Cells with their column's alignment.
-data cells_of(const std::vector<std::string>& texts, const std::vector<Alignment>& alignment) {
+/// Cells with their column's alignment, and what is behind them, if anything.
+data cells_of(const std::vector<std::string>& texts, const std::vector<Alignment>& alignment,
+              const std::vector<std::optional<Rgb>>& shades = {}) {
   data cells{data::type::list};
   for (std::size_t i = 0; i < texts.size(); ++i) {
     data cell;
     cell.set("text", texts[i]);
     cell.set("class", class_of(i < alignment.size() ? alignment[i] : Alignment::left));
+    cell.set("shade", data{false});
+    if (i < shades.size() && shades[i]) {
+      cell.set("shade",
+               fmt::format("#{:02x}{:02x}{:02x}", shades[i]->red, shades[i]->green, shades[i]->blue));
+    }
     cells.push_back(cell);
   }
   return cells;
@@ -92,6 +99,12 @@ struct Page::Renderer {
   std::vector<std::string> svgs;
   int tables = 0;
 
+  data operator()(const Heading& block) const {
+    data content;
+    content.set("text", block.text);
+    return wrapped("heading", content);
+  }
+
   data operator()(const Paragraph& block) const {
     data content;
     content.set("text", block.text);
@@ -104,8 +117,9 @@ struct Page::Renderer {
     content.set("number", table.caption.empty() ? std::string() : fmt::format("{}", ++tables));
     content.set("header", cells_of(table.header, table.alignment));
     data rows{data::type::list};
-    for (const std::vector<std::string>& row : table.rows) {
-      rows.push_back(data{"cells", cells_of(row, table.alignment)});
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const auto shades = table.shades.empty() ? std::vector<std::optional<Rgb>>{} : table.shades[i];
+      rows.push_back(data{"cells", cells_of(table.rows[i], table.alignment, shades)});
     }
     content.set("rows", rows);
     content.set("notes", list_of(table.notes));
@@ -123,7 +137,7 @@ struct Page::Renderer {
       items.push_back(item);
     }
     data content;
-    content.set("class", std::string(row.count > 1 ? "pair" : "single"));
+    content.set("class", std::string(row.half ? "pair" : "single"));
     content.set("items", items);
     return wrapped("figures", content);
   }
@@ -145,7 +159,7 @@ struct Page::Renderer {
   /// The block under the name of its kind, the other kinds being absent.
   static data wrapped(const char* kind, const data& content) {
     data block;
-    for (const char* name : {"paragraph", "table", "figures", "box", "preformatted"})
+    for (const char* name : {"heading", "paragraph", "table", "figures", "box", "preformatted"})
       block.set(name, data{false});
     block.set(kind, content);
     return block;
@@ -173,6 +187,10 @@ void Page::section(std::string heading) {
   sections_.push_back({std::move(heading), {}});
 }
 
+void Page::heading(std::string text) {
+  add(Heading{std::move(text)});
+}
+
 void Page::paragraph(std::string text) {
   add(Paragraph{std::move(text)});
 }
@@ -187,6 +205,15 @@ void Page::table(Table table) {
   if (table.alignment.size() > table.header.size()) {
     throw std::invalid_argument(fmt::format("table '{}': more alignments than columns", table.caption));
   }
+  const auto shades_fit = [&] {
+    if (table.shades.empty()) return true;
+    if (table.shades.size() != table.rows.size()) return false;
+    return std::all_of(table.shades.begin(), table.shades.end(),
+                       [&](const auto& row) { return row.size() == table.header.size(); });
+  };
+  if (!shades_fit()) {
+    throw std::invalid_argument(fmt::format("table '{}': shades are not those of its cells", table.caption));
+  }
   add(std::move(table));
 }
 
@@ -199,7 +226,18 @@ void Page::figures(Figure left, Figure right) {
   left.width = right.width = FigureWidth::half;
   figures_.push_back(std::move(left));
   figures_.push_back(std::move(right));
-  add(FigureRow{figures_.size() - 2, 2});
+  add(FigureRow{figures_.size() - 2, 2, true});
+}
+
+void Page::figures(std::vector<Figure> figures) {
+  for (std::size_t i = 0; i < figures.size(); i += 2) {
+    const std::size_t count = std::min<std::size_t>(2, figures.size() - i);
+    for (std::size_t k = i; k < i + count; ++k) {
+      figures[k].width = FigureWidth::half;
+      figures_.push_back(std::move(figures[k]));
+    }
+    add(FigureRow{figures_.size() - count, count, true});
+  }
 }
 
 void Page::box(Tone tone, std::string text) {

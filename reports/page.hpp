@@ -2,6 +2,7 @@
 // A report as one self-contained HTML page: a summary, then sections of text, tables and figures.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -20,6 +21,8 @@ struct Table {
   std::vector<Alignment> alignment{};            ///< by column; those not named are left
   std::vector<std::vector<std::string>> rows{};  ///< each with as many cells as the header
   std::vector<std::string> notes{};              ///< below the table
+  /// Colours behind cells, by row and column, where there are any; as many as rows and cells.
+  std::vector<std::vector<std::optional<Rgb>>> shades{};
 };
 
 /// How a verdict or a box is meant; said by a sign and a colour.
@@ -40,13 +43,18 @@ class Page {
 
   /// Starts a section; with more than three of them the summary ends with a list of contents.
   void section(std::string heading);
+  /// A heading within the section.
+  void heading(std::string text);
   void paragraph(std::string text);
-  /// Throws std::invalid_argument where a row has not as many cells as the header, or the alignment has more.
+  /// Throws std::invalid_argument where a row has not as many cells as the header, or the alignment has more,
+  /// or shades are not those of the cells.
   void table(Table table);
   /// A figure across the page, numbered with all others in reading order.
   void figure(Figure figure);
   /// Two figures side by side, made FigureWidth::half.
   void figures(Figure left, Figure right);
+  /// Figures two by two; of an odd number the last one has a row for itself, as wide as the others.
+  void figures(std::vector<Figure> figures);
   /// A note (Tone::plain) or a warning set apart from the text.
   void box(Tone tone, std::string text);
   /// Text with its line breaks and columns as they are.
@@ -59,6 +67,9 @@ class Page {
   struct Paragraph {
     std::string text;
   };
+  struct Heading {
+    std::string text;
+  };
   struct Box {
     Tone tone;
     std::string text;
@@ -69,8 +80,9 @@ class Page {
   struct FigureRow {
     std::size_t first;  // in figures_
     std::size_t count;
+    bool half = false;  // each as wide as half the page
   };
-  using Block = std::variant<Paragraph, Table, FigureRow, Box, Preformatted>;
+  using Block = std::variant<Heading, Paragraph, Table, FigureRow, Box, Preformatted>;
   struct Section {
     std::string heading;
     std::vector<Block> blocks;

@@ -24,6 +24,7 @@ header p { color: var(--quiet); margin: 0; overflow-wrap: anywhere; }
 h2 { font-size: 19px; line-height: 1.3; margin: 40px 0 12px; padding-bottom: 4px;
      border-bottom: 1px solid var(--rule); }
 #summary > h2 { margin-top: 0; }
+h3 { font-size: 16px; line-height: 1.3; margin: 28px 0 8px; }
 p { margin: 0 0 12px; }
 a { color: inherit; }
 .verdicts { list-style: none; margin: 0 0 20px; padding: 0; }
@@ -37,7 +38,7 @@ a { color: inherit; }
 dl { display: grid; grid-template-columns: minmax(130px, max-content) 1fr; margin: 0 0 20px; }
 dt, dd { margin: 0; padding: 4px 0; border-bottom: 1px solid var(--rule); overflow-wrap: anywhere; }
 dt { color: var(--quiet); padding-right: 24px; }
-.contents ol { margin: 0; padding-left: 24px; }
+.contents ol { margin: 0; padding-left: 24px; columns: 2; }
 .contents h3 { font-size: 15px; margin: 20px 0 4px; }
 .scroll { overflow-x: auto; margin: 16px 0 20px; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; line-height: 1.35; }
@@ -67,7 +68,14 @@ pre { margin: 16px 0; padding: 10px 12px; background: var(--shade); overflow-x: 
   table, figcaption { font-size: 9.5pt; }
   .notes { font-size: 9pt; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 8.5pt; }
-  .first-page { break-after: page; }
+  .first-page { break-after: page; font-size: 9pt; line-height: 1.35; }
+  .first-page .contents { display: none; }
+  .first-page .verdict { padding: 5px 12px 5px 36px; margin-bottom: 5px; }
+  .first-page .verdicts, .first-page dl { margin-bottom: 12px; }
+  .first-page dt, .first-page dd { padding: 2px 0; }
+  .first-page .scroll, .first-page .figures { margin: 10px 0; }
+  .first-page table, .first-page figcaption { font-size: 8.5pt; line-height: 1.25; }
+  .first-page th, .first-page td { padding-top: 2px; padding-bottom: 2px; }
   .first-page + section > h2 { margin-top: 0; }
   h2, h3, caption, thead { break-after: avoid; }
   tbody tr:nth-child(-n+2) { break-before: avoid; }
@@ -132,7 +140,10 @@ pre { margin: 16px 0; padding: 10px 12px; background: var(--shade); overflow-x: 
 )html";
 
 /// One block of any kind.
-inline constexpr const char* kBlocksTemplate = R"html({{#paragraph}}
+inline constexpr const char* kBlocksTemplate = R"html({{#heading}}
+<h3>{{text}}</h3>
+{{/heading}}
+{{#paragraph}}
 <p>{{text}}</p>
 {{/paragraph}}
 {{#table}}
@@ -146,7 +157,7 @@ inline constexpr const char* kBlocksTemplate = R"html({{#paragraph}}
 </thead>
 <tbody>
 {{#rows}}
-<tr>{{#cells}}<td class="{{class}}">{{text}}</td>{{/cells}}</tr>
+<tr>{{#cells}}<td class="{{class}}"{{#shade}} style="background:{{shade}}"{{/shade}}>{{text}}</td>{{/cells}}</tr>
 {{/rows}}
 </tbody>
 </table>

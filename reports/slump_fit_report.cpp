@@ -156,7 +156,7 @@ void add_slump_fit_section(Page& page, const datasets::Study& study, const Slump
       format_number(result.uncertainty.inflation, 3), format_number(result.uncertainty.autocorrelation, 2)));
   for (const std::string& sentence : null_direction_sentences(result)) page.box(Tone::warning, sentence);
   std::vector<Figure> figures{cost_figure(result)};
-  for (std::size_t k = 0; k < result.free.size(); ++k) figures.push_back(parameter_figure(result, k));
+  for (std::size_t k = 0; k < result.coordinates.size(); ++k) figures.push_back(parameter_figure(result, k));
   std::size_t i = figures.size() % 2;
   if (i == 1) page.figure(std::move(figures.front()));
   for (; i + 1 < figures.size(); i += 2) page.figures(std::move(figures[i]), std::move(figures[i + 1]));
