@@ -43,7 +43,7 @@ class LineExperiment final : public experiments::Experiment {
   [[nodiscard]] const experiments::Values& noise() const override { return noise_; }
 
   [[nodiscard]] tl::expected<experiments::Values, experiments::PredictionFailure> predict(
-      const model::Parameters<double>& parameters) const override {
+      const model::Parameters<double>& parameters, std::span<const double> /*local*/) const override {
     if (refusal_) {
       if (auto failure = refusal_(parameters)) return tl::unexpected(*failure);
     }
@@ -56,20 +56,17 @@ class LineExperiment final : public experiments::Experiment {
   }
 
   [[nodiscard]] tl::expected<experiments::Linearisation, experiments::PredictionFailure> linearise(
-      const model::Parameters<double>& parameters,
-      std::span<const model::ParameterId> with_respect_to) const override {
-    auto values = predict(parameters);
+      const model::Parameters<double>& parameters, std::span<const double> local,
+      const Eigen::MatrixXd& directions) const override {
+    auto values = predict(parameters, local);
     if (!values) return tl::unexpected(values.error());
     experiments::Linearisation result{std::move(*values), {}};
-    result.jacobian = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(measured_.size()),
-                                            static_cast<Eigen::Index>(with_respect_to.size()));
+    result.jacobian = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(measured_.size()), directions.cols());
     for (std::size_t i = 0; i < measured_.size(); ++i) {
-      for (std::size_t k = 0; k < with_respect_to.size(); ++k) {
-        for (const Term& term : terms_) {
-          if (term.id != with_respect_to[k]) continue;
-          result.jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) +=
-              term.coefficient(abscissa(i)) / parameters[term.id];
-        }
+      for (const Term& term : terms_) {
+        result.jacobian.row(static_cast<Eigen::Index>(i)) +=
+            term.coefficient(abscissa(i)) / parameters[term.id] *
+            directions.row(static_cast<Eigen::Index>(term.id));
       }
     }
     return result;

@@ -12,7 +12,6 @@ namespace {
 
 using enum model::ParameterId;
 using tests::seed_mud;
-using Bounds = std::array<std::optional<datasets::Bounds>, model::kParameterCount>;
 
 constexpr GaugeChoice kNoGauge{datasets::Gauge::none, 0.0};
 constexpr GaugeChoice kCrsGauge{datasets::Gauge::crs_rate, 7e-7};
@@ -23,8 +22,8 @@ TEST(Parametrisation, CoordinatesAreLogarithmsButThatOfC1) {
   EXPECT_DOUBLE_EQ(p.start()[0], std::log(0.154));
   EXPECT_DOUBLE_EQ(p.start()[1], 0.03);
   EXPECT_DOUBLE_EQ(p.start()[2], std::log(0.02));
-  EXPECT_TRUE(p.logarithmic(0));
-  EXPECT_FALSE(p.logarithmic(1));
+  EXPECT_TRUE(p.coordinates()[0].logarithmic);
+  EXPECT_FALSE(p.coordinates()[1].logarithmic);
 }
 
 TEST(Parametrisation, AtGivesTheParametersAndLeavesTheOthers) {
@@ -38,9 +37,9 @@ TEST(Parametrisation, AtGivesTheParametersAndLeavesTheOthers) {
 }
 
 TEST(Parametrisation, BoundsComeFromTheStudyOrTheDefaults) {
-  Bounds bounds;
-  bounds[static_cast<std::size_t>(lambda)] = datasets::Bounds{0.1, 0.2};
-  const Parametrisation p(seed_mud(), {lambda, I_v, C_1}, bounds, kNoGauge);
+  CoordinateSettings settings;
+  settings.bounds[static_cast<std::size_t>(lambda)] = datasets::Bounds{0.1, 0.2};
+  const Parametrisation p(seed_mud(), {lambda, I_v, C_1}, settings, kNoGauge);
   EXPECT_DOUBLE_EQ(p.lower()[0], std::log(0.1));
   EXPECT_DOUBLE_EQ(p.upper()[0], std::log(0.2));
   EXPECT_DOUBLE_EQ(p.lower()[1], std::log(default_bounds(I_v).lower));
@@ -49,10 +48,10 @@ TEST(Parametrisation, BoundsComeFromTheStudyOrTheDefaults) {
 }
 
 TEST(Parametrisation, StartOutsideOfItsBoundsIsMovedToTheNearest) {
-  Bounds bounds;
-  bounds[static_cast<std::size_t>(lambda)] = datasets::Bounds{0.2, 0.3};
-  bounds[static_cast<std::size_t>(I_v)] = datasets::Bounds{0.005, 0.01};
-  const Parametrisation p(seed_mud(), {lambda, I_v}, bounds, kNoGauge);
+  CoordinateSettings settings;
+  settings.bounds[static_cast<std::size_t>(lambda)] = datasets::Bounds{0.2, 0.3};
+  settings.bounds[static_cast<std::size_t>(I_v)] = datasets::Bounds{0.005, 0.01};
+  const Parametrisation p(seed_mud(), {lambda, I_v}, settings, kNoGauge);
   EXPECT_DOUBLE_EQ(p.start()[0], std::log(0.2));
   EXPECT_DOUBLE_EQ(p.start()[1], std::log(0.01));
 }

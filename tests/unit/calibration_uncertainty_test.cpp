@@ -188,7 +188,7 @@ TEST(Summaries, GiveTheRmsPlainAndInNoise) {
                                 std::make_shared<LineExperiment>(line(1.0).hold_out())};
   const auto exact =
       Parametrisation(tests::seed_mud(), {e100, lambda}, {}, {}).at(std::vector<double>(kAnswer));
-  const auto evaluation = evaluate_all(experiments, *exact, 2);
+  const auto evaluation = evaluate_all(experiments, *exact, {}, 2);
   ASSERT_TRUE(evaluation.has_value());
   const auto tests = summarise_tests(experiments, *evaluation);
   ASSERT_EQ(tests.size(), 2U);

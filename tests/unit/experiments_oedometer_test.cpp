@@ -37,13 +37,12 @@ model::Parameters<double> soft_mud(double I_v = 0.03) {
 
 TEST(OedometerExperiment, WithoutAnInitialStressTheFirstRowIsTheStart) {
   const OedometerExperiment experiment(small_test());
-  EXPECT_EQ(experiment.start().time, 100.0);
-  EXPECT_EQ(experiment.start().axial_strain, 0.02);
-  EXPECT_EQ(experiment.start().axial_stress, 10e3);
-  EXPECT_EQ(experiment.start().K0, 0.8);
-  EXPECT_NEAR(experiment.start().void_ratio, 2.5 * 0.98 - 1.0, 1e-15);
-  ASSERT_EQ(experiment.rows().size(), 5);
-  EXPECT_EQ(experiment.rows().front().line, 3);
+  EXPECT_EQ(experiment.protocol().start.time, 100.0);
+  EXPECT_EQ(experiment.protocol().start.axial_strain, 0.02);
+  EXPECT_EQ(experiment.protocol().start.axial_stress, 10e3);
+  EXPECT_NEAR(experiment.protocol().start.void_ratio, 2.5 * 0.98 - 1.0, 1e-15);
+  ASSERT_EQ(experiment.values().size(), 5);
+  EXPECT_EQ(experiment.row_of(experiment.values().front()).line, 3);
   EXPECT_EQ(experiment.measured().size(), 5);
   EXPECT_EQ(experiment.noise().size(), 5);
 }
@@ -52,13 +51,13 @@ TEST(OedometerExperiment, InitialStressIsTheStartAtTimeAndStrainZero) {
   datasets::OedometerTest test = small_test();
   test.initial_axial_stress = 4e3;
   const OedometerExperiment experiment(test);
-  EXPECT_EQ(experiment.start().time, 0.0);
-  EXPECT_EQ(experiment.start().axial_strain, 0.0);
-  EXPECT_EQ(experiment.start().axial_stress, 4e3);
-  EXPECT_EQ(experiment.start().void_ratio, 1.5);
-  ASSERT_EQ(experiment.rows().size(), 6);
-  EXPECT_EQ(experiment.steps()[0].duration, 100.0);
-  EXPECT_NEAR(experiment.steps()[0].strain, -std::log(0.98), 1e-15);
+  EXPECT_EQ(experiment.protocol().start.time, 0.0);
+  EXPECT_EQ(experiment.protocol().start.axial_strain, 0.0);
+  EXPECT_EQ(experiment.protocol().start.axial_stress, 4e3);
+  EXPECT_EQ(experiment.protocol().start.void_ratio, 1.5);
+  ASSERT_EQ(experiment.values().size(), 6);
+  EXPECT_EQ(experiment.protocol().steps[0].duration, 100.0);
+  EXPECT_NEAR(experiment.protocol().steps[0].amount, -std::log(0.98), 1e-15);
 }
 
 TEST(OedometerExperiment, AFirstRowAtTimeZeroIsTheInitialStateItself) {
@@ -66,9 +65,9 @@ TEST(OedometerExperiment, AFirstRowAtTimeZeroIsTheInitialStateItself) {
   test.initial_axial_stress = 4e3;
   test.record.rows.front() = {2, 0.0, 0.0, 4.1e3, Stage::load, {}, {}};
   const OedometerExperiment experiment(test);
-  EXPECT_EQ(experiment.start().axial_stress, 4e3);
-  ASSERT_EQ(experiment.rows().size(), 5);
-  EXPECT_EQ(experiment.steps()[0].duration, 300.0);
+  EXPECT_EQ(experiment.protocol().start.axial_stress, 4e3);
+  ASSERT_EQ(experiment.values().size(), 5);
+  EXPECT_EQ(experiment.protocol().steps[0].duration, 300.0);
 }
 
 TEST(OedometerExperiment, StepsAreLogarithmicAndKeepTheGrainsVolume) {
@@ -76,12 +75,13 @@ TEST(OedometerExperiment, StepsAreLogarithmicAndKeepTheGrainsVolume) {
   const double engineering[] = {0.04, 0.06, 0.06, 0.05, 0.04};
   double height = 0.98;
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_NEAR(experiment.steps()[i].strain, std::log(height / (1.0 - engineering[i])), 1e-15);
+    EXPECT_NEAR(experiment.protocol().steps[i].amount, std::log(height / (1.0 - engineering[i])), 1e-15);
     height = 1.0 - engineering[i];
-    EXPECT_NEAR(experiment.void_ratios()[i], 2.5 * height - 1.0, 1e-14);
+    EXPECT_NEAR(experiment.void_ratio_of(experiment.row_of(experiment.values()[i])), 2.5 * height - 1.0,
+                1e-14);
   }
-  EXPECT_EQ(experiment.steps()[2].duration, 400.0);
-  EXPECT_EQ(experiment.steps()[2].strain, 0.0);
+  EXPECT_EQ(experiment.protocol().steps[2].duration, 400.0);
+  EXPECT_EQ(experiment.protocol().steps[2].amount, 0.0);
 }
 
 TEST(OedometerExperiment, MeasuredIsTheLogarithmOfStress) {
@@ -120,7 +120,7 @@ TEST(OedometerExperiment, ScaledResidualsAreInUnitsOfTheNoise) {
 TEST(OedometerExperiment, FirstLoadingRateIsThatOfItsEnds) {
   datasets::OedometerTest test = small_test();
   test.record.rows.push_back({8, 1100.0, 0.08, 30e3, Stage::load, {}, {}});
-  const auto rate = OedometerExperiment(test).first_loading_rate();
+  const auto rate = OedometerExperiment(test).protocol().first_loading_rate;
   ASSERT_TRUE(rate);
   EXPECT_NEAR(*rate, std::log(0.98 / 0.94) / 400.0, 1e-15);
 }
@@ -128,7 +128,8 @@ TEST(OedometerExperiment, FirstLoadingRateIsThatOfItsEnds) {
 TEST(OedometerExperiment, FirstLoadingRateSkipsWhatComesBefore) {
   datasets::OedometerTest test = small_test();
   for (std::size_t i : {0U, 1U}) test.record.rows[i].stage = Stage::unload;
-  const auto rate = OedometerExperiment(test).first_loading_rate();
+  test.record.rows[0].axial_strain = 0.05;
+  const auto rate = OedometerExperiment(test).protocol().first_loading_rate;
   ASSERT_TRUE(rate);
   EXPECT_NEAR(*rate, std::log(0.96 / 0.94) / 200.0, 1e-15);
 }
@@ -136,14 +137,14 @@ TEST(OedometerExperiment, FirstLoadingRateSkipsWhatComesBefore) {
 TEST(OedometerExperiment, NoLoadingHasNoRate) {
   datasets::OedometerTest test = small_test();
   for (auto& row : test.record.rows) row.stage = Stage::unload;
-  EXPECT_FALSE(OedometerExperiment(test).first_loading_rate());
+  EXPECT_FALSE(OedometerExperiment(test).protocol().first_loading_rate);
 }
 
 // compressed to 40 % of its height, 2.5 * 0.4 = 1.0: no void is left
 TEST(OedometerExperiment, FailureNamesTheTestTheTimesAndTheLine) {
   datasets::OedometerTest test = small_test();
   test.record.rows.back() = {9, 1000.0, 0.61, 8e3, Stage::load, {}, {}};
-  const auto prediction = OedometerExperiment(test).predict(soft_mud());
+  const auto prediction = OedometerExperiment(test).predict(soft_mud(), {});
   ASSERT_FALSE(prediction);
   const std::string& message = prediction.error().message;
   for (const char* part : {"small: ", "between time 950 s and 1000 s", "(line 9)", "integration failed"}) {
@@ -154,9 +155,11 @@ TEST(OedometerExperiment, FailureNamesTheTestTheTimesAndTheLine) {
 
 TEST(OedometerExperiment, LineariseReturnsThePredictionItself) {
   const OedometerExperiment experiment(small_test());
-  const std::vector<model::ParameterId> both{model::ParameterId::lambda, model::ParameterId::I_v};
-  const auto values = experiment.predict(soft_mud());
-  const auto linearised = experiment.linearise(soft_mud(), both);
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model::kParameterCount), 2);
+  both(static_cast<Eigen::Index>(model::ParameterId::lambda), 0) = 1.0;
+  both(static_cast<Eigen::Index>(model::ParameterId::I_v), 1) = 1.0;
+  const auto values = experiment.predict(soft_mud(), {});
+  const auto linearised = experiment.linearise(soft_mud(), {}, both);
   ASSERT_TRUE(values && linearised);
   EXPECT_EQ(linearised->jacobian.rows(), 5);
   EXPECT_EQ(linearised->jacobian.cols(), 2);

@@ -83,5 +83,18 @@ TEST(CommandedStrain, LoadingAndUnloadingKeepTheirReadings) {
   expect_strains(commanded_strain(record), {0.01, 0.03, 0.02});
 }
 
+// noise of reading does not turn the direction commanded: 0.033, 0.031 become their mean
+TEST(CommandedStrain, StepsBackWhileLoadingAreEvenedOut) {
+  const auto record = record_of({{0.02, Stage::load},
+                                 {0.033, Stage::load},
+                                 {0.031, Stage::load},
+                                 {0.05, Stage::load},
+                                 {0.045, Stage::unload},
+                                 {0.046, Stage::unload},
+                                 {0.03, Stage::unload}},
+                                false);
+  expect_strains(commanded_strain(record), {0.02, 0.032, 0.032, 0.05, 0.0455, 0.0455, 0.03});
+}
+
 }  // namespace
 }  // namespace isotach::experiments

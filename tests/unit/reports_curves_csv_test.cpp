@@ -40,6 +40,25 @@ TEST_F(CurvesCsv, OedometerCurvesAlignWithTheData) {
   EXPECT_TRUE(search.find("kappa"));
 }
 
+TEST_F(CurvesCsv, EveryDrawnOedometerCurveIsWritten) {
+  OutputDirectory output(root_ / "out");
+  write_curves(output, assessed_fit());
+  output.commit();
+  const CsvTable isotachs = CsvTable::read(root_ / "out/curves/oedometer_isotachs/crs-2.csv");
+  // an isotach is a straight line of slope -lambda in ln(1+e) against ln stress
+  const double slope =
+      std::log((1.0 + cell(isotachs, 1, "void_ratio")) / (1.0 + cell(isotachs, 0, "void_ratio"))) /
+      std::log(cell(isotachs, 1, "axial_stress_kPa") / cell(isotachs, 0, "axial_stress_kPa"));
+  EXPECT_NEAR(slope, -assessed_fit().result.parameters->lambda(), 1e-9);
+  const CsvTable profiles = CsvTable::read(root_ / "out/curves/oedometer_profiles.csv");
+  EXPECT_EQ(profiles.text(0, profiles.require("parameter")), "e100");
+  const CsvTable starts = CsvTable::read(root_ / "out/curves/oedometer_starts.csv");
+  EXPECT_EQ(starts.text(0, starts.require("kind")), "start");
+  EXPECT_TRUE(std::filesystem::exists(root_ / "out/curves/oedometer_constructions/crs-2.csv"));
+  EXPECT_TRUE(std::filesystem::exists(root_ / "out/curves/oedometer_isotachs/crs-3.csv"));
+  EXPECT_FALSE(std::filesystem::exists(root_ / "out/curves/oedometer_constructions/crs-3.csv"));
+}
+
 TEST_F(CurvesCsv, SlumpOutlinesAreReadableAsData) {
   OutputDirectory output(root_ / "out");
   const calibration::SlumpFit& fit = small_calibration().slump;

@@ -130,5 +130,25 @@ TEST(Page, RefusesRaggedTables) {
                std::invalid_argument);
 }
 
+TEST(Page, ShadesCells) {
+  Page page("t", "s");
+  page.table({.header = {"a", "b"}, .rows = {{"1", "2"}}, .shades = {{std::nullopt, Rgb{255, 0, 16}}}});
+  const std::string html = page.html();
+  EXPECT_EQ(count(html, "background:#ff0010"), 1U);
+  EXPECT_TRUE(has(html, "<td class=\"left\">1</td>"));
+  EXPECT_THROW(page.table({.header = {"a"}, .rows = {{"1"}}, .shades = {{}, {}}}), std::invalid_argument);
+  EXPECT_THROW(page.table({.header = {"a"}, .rows = {{"1"}}, .shades = {{}}}), std::invalid_argument);
+}
+
+TEST(Page, PutsFiguresTwoByTwo) {
+  Page page("t", "s");
+  page.heading("Parts");
+  page.figures({small_figure("one"), small_figure("two"), small_figure("three")});
+  const std::string html = page.html();
+  EXPECT_TRUE(has(html, "<h3>Parts</h3>"));
+  EXPECT_EQ(count(html, "<div class=\"figures pair\">"), 2U);
+  EXPECT_EQ(count(html, "<svg "), 3U);
+}
+
 }  // namespace
 }  // namespace isotach::reports

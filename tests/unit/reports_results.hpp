@@ -50,6 +50,26 @@ inline const calibration::Calibration& small_calibration() {
   return result;
 }
 
+/// The study with a multi-start of three and a bootstrap of four.
+inline const datasets::Study& assessed_study() {
+  static const datasets::Study study = [] {
+    datasets::Study assessed = small_study();
+    assessed.fit.starts = 3;
+    assessed.fit.bootstrap = 4;
+    return assessed;
+  }();
+  return study;
+}
+
+/// Its oedometer fit with all of the assessment.
+inline const calibration::OedometerFit& assessed_fit() {
+  static const calibration::OedometerFit fit = [] {
+    const datasets::Study& study = assessed_study();
+    return calibration::fit_oedometer(study, study.material, study.fit.oedometer, {}).value();
+  }();
+  return fit;
+}
+
 inline const datasets::SlumpFile& short_slump_test() {
   static const datasets::SlumpFile test = [] {
     auto file = datasets::read_slump_file(std::filesystem::path(ISOTACH_SOURCE_DIR) /

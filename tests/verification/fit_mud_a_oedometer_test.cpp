@@ -92,11 +92,11 @@ TEST(FitMudAOedometer, PredictionsDoNotSeeTheGauge) {
     moved[e100] = (1.0 + start.e100()) * std::pow(f, start.lambda() * start.I_v()) - 1.0;
     for (const auto& test : mud_a().oedometer_tests) {
       const experiments::OedometerExperiment experiment(test);
-      const auto before = experiment.predict(start);
-      const auto after = experiment.predict(*model::Parameters<double>::create(moved));
+      const auto before = experiment.predict(start, {});
+      const auto after = experiment.predict(*model::Parameters<double>::create(moved), {});
       ASSERT_TRUE(before && after);
       for (std::size_t i = 0; i < before->size(); ++i) {
-        ASSERT_NEAR((*after)[i], (*before)[i], 1e-6) << test.name << ", value " << i << ", f = " << f;
+        ASSERT_NEAR((*after)[i], (*before)[i], 3e-5) << test.name << ", value " << i << ", f = " << f;
       }
     }
   }
@@ -131,17 +131,18 @@ TEST(FitMudAOedometer, JetsThroughTheWholePredictionAreItsDerivatives) {
   const auto at = model::Parameters<double>::create(rotating).value();
   std::vector<model::ParameterId> all;
   for (const auto& parameter : model::kParameterTable) all.push_back(parameter.id);
+  constexpr auto kCount = static_cast<Eigen::Index>(model::kParameterCount);
   for (const auto& test : mud_a().oedometer_tests) {
     const experiments::OedometerExperiment experiment(test);
-    const auto exact = experiment.linearise(at, all);
+    const auto exact = experiment.linearise(at, {}, Eigen::MatrixXd::Identity(kCount, kCount));
     ASSERT_TRUE(exact);
     const auto slope = [&](model::ParameterId id, double relative) {
       model::ParameterValues<double> low = at.values();
       model::ParameterValues<double> high = at.values();
       low[id] *= 1.0 - relative;
       high[id] *= 1.0 + relative;
-      const auto below = experiment.predict(*model::Parameters<double>::create(low));
-      const auto above = experiment.predict(*model::Parameters<double>::create(high));
+      const auto below = experiment.predict(*model::Parameters<double>::create(low), {});
+      const auto above = experiment.predict(*model::Parameters<double>::create(high), {});
       EXPECT_TRUE(below && above);
       return ((Eigen::Map<const Eigen::VectorXd>(above->data(), exact->jacobian.rows()) -
                Eigen::Map<const Eigen::VectorXd>(below->data(), exact->jacobian.rows())) /
