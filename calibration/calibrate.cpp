@@ -118,6 +118,13 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
     calibration.settled = oedometer_move < kStandingStill;
   }
 
+  report(0.0, "how far the oedometer fit can be trusted");
+  oedometer_options.depth = Depth::assessment;
+  auto assessed =
+      fit_oedometer(study, *calibration.oedometer.result.parameters, oedometer_list, oedometer_options);
+  if (!assessed) return tl::unexpected(assessed.error());
+  calibration.oedometer = std::move(*assessed);
+
   report(0.0, "uncertainty and comparison of all tests");
   slump_options.control.callback = nullptr;
   found->parameters = *calibration.oedometer.result.parameters;

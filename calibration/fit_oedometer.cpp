@@ -156,6 +156,10 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
                   Parametrisation(start, wanted, {study.fit.bounds, study.fit.priors}, *gauge, experiments),
                   options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
+  if (parametrisation.size() == 0) {
+    return tl::unexpected(
+        FitFailure{"nothing is left to fit: of the parameters listed, D_r follows from the gauge"});
+  }
   FitResult& result = fit.result;
   result.free = parametrisation.free();
   result.coordinates = parametrisation.coordinates();

@@ -170,7 +170,8 @@ tl::expected<Uncertainty, experiments::PredictionFailure> estimate_uncertainty(c
                                                                                Correlation correlation) {
   const auto linearised = problem.linearise(x);
   if (!linearised) return tl::unexpected(linearised.error());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linearised->jacobian, Eigen::ComputeThinV);
+  // all of V: with fewer data than coordinates the rest of it spans what they do not see
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linearised->jacobian, Eigen::ComputeFullV);
   const auto& singular = svd.singularValues();
   const Eigen::Index count = linearised->jacobian.cols();
   Uncertainty result;

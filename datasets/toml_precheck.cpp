@@ -49,7 +49,9 @@ class Scanner {
 
   /// Up to and with the end of the line that is outside of strings and brackets.
   void skip_expression() {
-    std::string open;  // brackets that wait for their own kind
+    std::string open;    // brackets that wait for their own kind
+    char last = '\n';    // that is not blank
+    bool value = false;  // a value is what comes, not a key
     while (at_ < text_.size() && !defect_) {
       const char c = text_[at_];
       if (beyond_ascii()) {
@@ -57,7 +59,13 @@ class Scanner {
         return;
       }
       if (c == '"' || c == '\'') {
+        // the parser takes a quote behind anything else for a part of a word, and goes on in it
+        if (std::string_view(value ? "\n=,[" : "\n=,[{.").find(last) == std::string_view::npos) {
+          defect_ = TomlDefect{line_, "a quote inside of a word"};
+          return;
+        }
         skip_string(c);
+        last = c;
         continue;
       }
       if (c == '#') {
@@ -72,8 +80,11 @@ class Scanner {
         }
         open.pop_back();
       }
+      if (c == '=' || c == '[' || c == ']' || c == '}') value = true;
+      if (c == '{' || (c == ',' && !open.empty() && open.back() == '}')) value = false;
       advance(1);
       if (c == '\n' && open.empty()) return;
+      if (c != ' ' && c != '\t' && c != '\r') last = c;
     }
   }
 
@@ -83,7 +94,12 @@ class Scanner {
     const std::string_view close = text_.substr(at_, length);
     advance(length);
     while (at_ < text_.size()) {
-      if (text_.substr(at_).starts_with(close)) return advance(length);
+      if (text_.substr(at_).starts_with(close)) {
+        advance(length);
+        // up to two quotes may stand before the three that close
+        for (int i = 0; many && i < 2 && at_ < text_.size() && text_[at_] == quote; ++i) advance(1);
+        return;
+      }
       if (!many && text_[at_] == '\n') return;
       if (quote == '"' && text_[at_] == '\\') {
         skip_escape();

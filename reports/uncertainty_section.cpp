@@ -97,12 +97,15 @@ Figure profile_figure(const FitResult& result, const Profile& profile) {
   if (std::isfinite(error) && error > 0.0) {
     Series parabola{.label = "by standard error", .style = SeriesStyle::dashed, .colour = palette_colour(1)};
     constexpr int kHalf = 30;
-    const double reach = std::sqrt(kShown * profile.threshold) * error;
+    // the interval of the standard error ends where its parabola meets the threshold
+    const double quantile = result.uncertainty.quantile();
+    const double reach = std::sqrt(kShown) * quantile * error;
+    const double scale = profile.threshold / (quantile * quantile * error * error);
     for (int i = -kHalf; i <= kHalf; ++i) {
       const double x = optimum + reach * i / kHalf;
       if (x < coordinate.lower || x > coordinate.upper) continue;
       parabola.x.push_back(quantity_at(coordinate, x));
-      parabola.y.push_back((x - optimum) * (x - optimum) / (error * error));
+      parabola.y.push_back(scale * (x - optimum) * (x - optimum));
     }
     figure.series.push_back(std::move(parabola));
   }

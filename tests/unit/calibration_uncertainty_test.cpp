@@ -92,6 +92,20 @@ TEST(Uncertainty, RedundantPairHasANullDirection) {
   EXPECT_EQ(estimate_of(estimates, lambda).verdict, Verdict::identified);
 }
 
+// one value for two coordinates: ln e100 + t ln lambda at t = 0 sees e100 alone
+TEST(Uncertainty, FewerValuesThanCoordinatesLeaveDirectionsUnseen) {
+  const LineExperiment one({{e100, tests::constant_term}, {lambda, tests::linear_term}},
+                           experiments::Values{tests::kIntercept}, tests::kNoise);
+  const auto uncertainty =
+      estimate_uncertainty(problem_of({one}, {e100, lambda}), kAnswer, Correlation::whitened);
+  ASSERT_TRUE(uncertainty.has_value());
+  ASSERT_EQ(uncertainty->null_directions.size(), 1U);
+  EXPECT_NEAR(std::abs(uncertainty->null_directions[0][1]), 1.0, 1e-12);
+  EXPECT_NEAR(uncertainty->covariance(0, 0), kNoise2, 1e-9 * kNoise2);
+  EXPECT_FALSE(uncertainty->in_null_direction(0));
+  EXPECT_TRUE(uncertainty->in_null_direction(1));
+}
+
 TEST(Estimates, IntervalOfALogarithmicCoordinateIsThatOfItsExponential) {
   const Problem problem = problem_of({line(0.1)}, {e100, lambda});
   const auto uncertainty = estimate_uncertainty(problem, kAnswer, Correlation::independent);

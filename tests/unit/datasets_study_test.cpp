@@ -335,6 +335,10 @@ TEST_F(StudyFile, WhatIsNoTomlFileIsRefused) {
           {"study.toml:7: TOML syntax: a table header that begins with no key"});
   refused("[ [ +a ]\n", {"study.toml:1: TOML syntax"});
   refused("a = [1,\n [2}]\n", {"study.toml:2: TOML syntax: a bracket closed by one of another kind"});
+  refused("a = 0.1e'\xD2\x8D'\n", {"study.toml:1: TOML syntax: a quote inside of a word"});
+  refused("a = [1, 2.'x']\n", {"study.toml:1: TOML syntax: a quote inside of a word"});
+  // legal: quotes that close, with more before them, and behind dots, commas and brackets
+  refused("a = \"\"\"x \"y\"\"\"\"\nb.\"c\" = [\"d\", 'e', {f = \"g\"}]\n", {"key a"});
   refused("a = 1\n[[\nb]]\n", {"study.toml:2: TOML syntax"});
   refused("[\xC3\xA9]\n", {"study.toml:1: TOML syntax"});
   refused("note = \"\xC3\xA9\" # \xC3\xA9\n\xC3\xA9 = 1\n", {"study.toml:2: TOML syntax", "not in quotes"});
