@@ -140,7 +140,7 @@ def main():
     ours = 1e-3 * value("median_ms")
     print(f"SciPy: {seconds:.2f} s, {fit.nfev} steps; ratio {seconds / ours:.0f}")
     for name, x, error in zip(("e100", "lambda", "kappa"), fit.x, np.sqrt(np.diag(covariance))):
-        print(f"{name} {math.exp(x):.7g} +- {math.exp(x) * error:.2g}  (Isotach {value("fit_" + name):.7g})")
+        print(f"{name} {math.exp(x):.7g} +- {math.exp(x) * error:.2g}  (Isotach {value('fit_' + name):.7g})")
 
 
 if __name__ == "__main__":
