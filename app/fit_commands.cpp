@@ -2,6 +2,8 @@
 // isotach fit-oedometer, fit-slump and calibrate: from a study to parameters and a report.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
 #include "calibration/calibrate.hpp"
@@ -36,6 +38,16 @@ void require_parameters(const datasets::Study& study, const std::vector<model::P
   }
 }
 
+/// With a gauge D_r follows from the others: alone it leaves nothing to fit.
+void require_more_than_gauged(const datasets::Study& study) {
+  const auto& list = study.fit.oedometer;
+  const auto is_D_r = [](model::ParameterId id) { return id == model::ParameterId::D_r; };
+  if (study.fit.gauge == datasets::Gauge::none || !std::all_of(list.begin(), list.end(), is_D_r)) return;
+  throw datasets::InputError(datasets::FilePlace{study.file}, "[fit] oedometer",
+                             "D_r alone, which the gauge sets",
+                             "a parameter beside D_r, or gauge = \"none\"");
+}
+
 /// Everything a fit writes.
 template <class Fit, class Report>
 int publish(reports::OutputDirectory& output, const CommonOptions& options, const Run& run,
@@ -57,6 +69,7 @@ int fit_oedometer(const CommonOptions& options) {
   const datasets::Study study = datasets::read_study(options.input, options.read_options());
   require_fitted(study, study.oedometer_tests, "[[oedometer]]");
   require_parameters(study, study.fit.oedometer, "[fit] oedometer");
+  require_more_than_gauged(study);
   reports::OutputDirectory output(options.out);
   reports::Progress progress("fit-oedometer", options.quiet);
   calibration::OedometerFitOptions fit_options;
@@ -105,6 +118,7 @@ int calibrate(const CommonOptions& options) {
   require_fitted(study, study.oedometer_tests, "[[oedometer]]");
   require_fitted(study, study.slump_tests, "[[slump]]");
   require_parameters(study, study.fit.oedometer, "[fit] oedometer");
+  require_more_than_gauged(study);
   require_parameters(study, study.fit.slump, "[fit] slump");
   reports::OutputDirectory output(options.out);
   reports::Progress progress("calibrate", options.quiet);

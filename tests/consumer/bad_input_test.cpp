@@ -74,6 +74,11 @@ TEST_F(BadInput, TextInANumber) {
                  {"crs.csv:4: ", "column axial_stress_kPa", "\"twelve\" is not a number", "accepted: "});
 }
 
+TEST_F(BadInput, NothingLeftToFit) {
+  write("study.toml", content_of(folder() / "study.toml") + "[fit]\noedometer = [\"D_r\"]\n");
+  expect_refused({"fit-oedometer", "study.toml"}, {"study.toml: ", "[fit] oedometer", "D_r alone"});
+}
+
 TEST_F(BadInput, ValueOfACellOutOfRange) {
   change("crs.csv", "2000,0.02,12", "2000,1.2,12");
   expect_refused({"fit-oedometer", "study.toml"},
