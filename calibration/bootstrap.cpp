@@ -72,7 +72,7 @@ Bootstrap bootstrap(const Problem& problem, const NoiseFit& noise, const std::ve
   const auto count = static_cast<std::size_t>(options.samples);
   std::vector<std::optional<std::vector<double>>> answers(count);
   parallel_for(count, options.threads, [&](std::size_t sample) {
-    if (control.stop != nullptr && control.stop->load()) return;
+    if (control.stopped()) return;
     std::seed_seq seeds{options.seed, static_cast<unsigned>(sample)};
     std::mt19937_64 random(seeds);
     Experiments made;

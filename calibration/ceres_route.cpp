@@ -75,7 +75,7 @@ class Watch final : public ceres::IterationCallback {
       result_.trace.push_back({result_.evaluations, summary.cost, std::move(x)});
     }
     if (control_.callback) control_.callback(result_.evaluations, summary.cost);
-    const bool stop = control_.stop != nullptr && control_.stop->load();
+    const bool stop = control_.stopped();
     return stop ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
   }
 

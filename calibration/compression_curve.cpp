@@ -21,13 +21,6 @@ constexpr double kSteepEnough = 0.9;      // of the steepest slope
 constexpr double kLongEnough = 1.5;       // ratio of stresses
 constexpr std::size_t kFewestVirgin = 3;
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
 /// The points of a stretch of loading that virgin compression is read from, given the largest stress before.
 std::vector<CurvePoint> beyond(std::span<const CurvePoint> stretch, double largest_before) {
   // a stretch that starts well below the largest stress so far comes back to the virgin line
@@ -196,6 +189,13 @@ std::vector<Line> swelling_lines(std::span<const CurvePoint> curve) {
     begin = end;
   }
   return lines;
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 double isotropic_swelling_index(double kappa0, double phi_c, double K0) {

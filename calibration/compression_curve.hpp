@@ -79,6 +79,9 @@ struct VirginLine {
 /// and the point before the unloading. Slope negative.
 [[nodiscard]] std::vector<Line> swelling_lines(std::span<const CurvePoint> curve);
 
+/// Median of values, of which there is one at least; their order is lost.
+[[nodiscard]] double median(std::vector<double>& values);
+
 /// The law's kappa from the slope kappa0 > 0 of ln(1+e) against ln axial stress at constant K0 (> 0):
 /// kappa = kappa0 [(1 + 2 K0) + a^2/(1 + 2 K0)]/(1 + a^2/3), a of the friction angle phi_c (rad) after
 /// Niemunis (2003), stiffness at F = 1.

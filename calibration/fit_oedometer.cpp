@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "calibration/uncertainty.hpp"
 
@@ -83,13 +84,11 @@ tl::expected<MultiStart, FitFailure> try_other_starts(const datasets::Study& stu
   starts.starts = study.fit.starts - 1;
   starts.seed = study.fit.seed;
   starts.threads = options.threads;
-  OptimiserControl quiet;
-  quiet.stop = options.control.stop;
+  const OptimiserControl quiet = options.control.quiet();
   MultiStart found =
       multi_start(problem, x, linearised->jacobian.transpose() * linearised->jacobian, starts, quiet);
-  if (quiet.stop != nullptr && quiet.stop->load()) return tl::unexpected(FitFailure{"interrupted", true});
-  constexpr double kBetter = 1e-3;
-  if (!found.clusters.empty() && found.clusters.front().cost < fit.result.main.cost - kBetter) {
+  if (quiet.stopped()) return tl::unexpected(FitFailure{"interrupted", true});
+  if (!found.clusters.empty() && found.clusters.front().cost < fit.result.main.cost - kBetterCost) {
     const Eigen::VectorXd& best = found.clusters.front().best;
     found.moved_the_answer = true;
     problem.set_weights({});
@@ -174,6 +173,7 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
   candidates.push_back(parametrisation.start());
   const auto first = first_that_predicts(problem, candidates);
   if (!first) return tl::unexpected(first.error());
+  fit.first_guess = *first;
   if (options.progress) options.progress(0.02, "fit with Ceres");
   if (auto failure = find_answer(problem, *first, options.control, fit)) return tl::unexpected(*failure);
   MultiStart other_starts;

@@ -43,6 +43,7 @@ struct OedometerFit {
   Evaluation evaluation;                    ///< of all, at the answer, by the noise that the study states
   double reference_rate = 0.0;              ///< axial strain rate of the gauge (1/s); 0 where none was needed
   std::optional<StartValues> start;         ///< constructions on the data, where the fit started from them
+  std::vector<double> first_guess;          ///< coordinates that the first search set out from
   Eigen::MatrixXd white_covariance;         ///< of the coordinates, were the weighted residuals independent
   NoiseFit noise;                           ///< estimated, as the final fit was weighted
   std::vector<TestCheck> checks;            ///< of all tests

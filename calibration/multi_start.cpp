@@ -61,10 +61,9 @@ MultiStart multi_start(const Problem& problem, const std::vector<double>& first,
   Problem serial = problem;
   serial.set_threads(1);
   std::vector<std::optional<OptimiserResult>> found(count);
-  OptimiserControl quiet;
-  quiet.stop = control.stop;
+  const OptimiserControl quiet = control.quiet();
   parallel_for(count, options.threads, [&](std::size_t i) {
-    if (control.stop != nullptr && control.stop->load()) return;
+    if (control.stopped()) return;
     // a start that the law cannot follow is drawn halfway towards the first one, which it can
     constexpr int kTries = 6;
     for (int attempt = 0; attempt < kTries; ++attempt) {

@@ -43,7 +43,7 @@ struct Search {
   nlopt::opt& optimiser;
 
   double operator()(const std::vector<double>& x) {
-    if (control.stop != nullptr && control.stop->load()) {
+    if (control.stopped()) {
       result.interrupted = true;
       optimiser.force_stop();
       return kRefused;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <limits>
 
 #include "calibration/fit_oedometer.hpp"
 #include "calibration/parallel.hpp"
@@ -91,9 +91,7 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
   OedometerAssessment& assessment = *fit.assessment;
   Problem serial = problem;
   serial.set_threads(1);
-  OptimiserControl quiet;
-  quiet.stop = options.control.stop;
-  const auto stopped = [&] { return quiet.stop != nullptr && quiet.stop->load(); };
+  const OptimiserControl quiet = options.control.quiet();
   const auto report = [&](double fraction, const char* what) {
     if (options.progress) options.progress(fraction, what);
   };
@@ -102,7 +100,6 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
   report(0.25, "profile likelihood");
   assessment.profiles.resize(x.size());
   const double quantile = result.uncertainty.quantile();
-  std::atomic<int> profiled = 0;
   parallel_for(x.size(), options.threads, [&](std::size_t k) {
     const auto i = static_cast<Eigen::Index>(k);
     const double error = result.uncertainty.in_null_direction(k)
@@ -113,9 +110,8 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
                              ? result.uncertainty.covariance(i, i) / fit.white_covariance(i, i)
                              : 1.0;
     assessment.profiles[k] = profile(serial, x, k, error, quantile * quantile * ratio, quiet);
-    ++profiled;
   });
-  if (stopped()) return FitFailure{"interrupted", true};
+  if (quiet.stopped()) return FitFailure{"interrupted", true};
   for (std::size_t k = 0; k < x.size(); ++k) {
     const Profile& found = assessment.profiles[k];
     if (k < result.free.size()) {
@@ -131,26 +127,20 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
 
   report(0.5, "NLopt, local and global");
   // without a gauge there is no single answer to agree on
-  constexpr double kBetter = 1e-3;
   if (unique) {
     NloptOptions nlopt;
     nlopt.coordinate_tolerance = 1e-7;
     nlopt.restarts = 2;
-    std::vector<double> start = problem.parametrisation().start();
-    if (fit.start) {
-      const std::vector<double> drawn = start_from(*fit.start, problem.parametrisation());
-      if (problem.residuals(drawn)) start = drawn;
-    }
     std::vector<OptimiserResult> routes(3);
     parallel_for(routes.size(), options.threads, [&](std::size_t i) {
       if (i == 0) {
-        routes[i] = minimise_with_nlopt(serial, start, nlopt, quiet);
+        routes[i] = minimise_with_nlopt(serial, fit.first_guess, nlopt, quiet);
       } else {
         routes[i] = search_globally(serial, i == 1 ? GlobalSearch::crs2 : GlobalSearch::isres, x,
                                     box_about(problem, x, study.fit.seed), quiet);
       }
     });
-    if (stopped()) return FitFailure{"interrupted", true};
+    if (quiet.stopped()) return FitFailure{"interrupted", true};
     result.check = std::move(routes[0]);
     assessment.global_searches = {std::move(routes[1]), std::move(routes[2])};
     result.disagreement = disagreement(result.main, *result.check, result.uncertainty);
@@ -161,7 +151,7 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
                       result.disagreement, result.main.cost, result.check->cost));
     }
     for (const OptimiserResult& search : assessment.global_searches) {
-      if (search.cost < result.main.cost - kBetter) {
+      if (search.cost < result.main.cost - kBetterCost) {
         result.warnings.push_back(
             fmt::format("{} found a better fit than the one reported: cost {:.6g} instead of {:.6g}",
                         search.route, search.cost, result.main.cost));
@@ -174,7 +164,7 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
                        wanted, options.threads, quiet};
   assessment.without_test = leave_one_out(base);
   assessment.shifted_inputs = shift_inputs(base);
-  if (stopped()) return FitFailure{"interrupted", true};
+  if (quiet.stopped()) return FitFailure{"interrupted", true};
 
   report(0.9, "integrators");
   assessment.integrators.resize(fit.experiments.size());
@@ -194,7 +184,7 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
     report(0.92, "bootstrap");
     assessment.bootstrap =
         bootstrap(problem, fit.noise, x, {study.fit.bootstrap, study.fit.seed, options.threads}, quiet);
-    if (stopped()) return FitFailure{"interrupted", true};
+    if (quiet.stopped()) return FitFailure{"interrupted", true};
   }
   report(1.0, "done");
   return std::nullopt;

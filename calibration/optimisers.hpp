@@ -24,7 +24,14 @@ using EvaluationCallback = std::function<void(int evaluations, double best_cost)
 struct OptimiserControl {
   const std::atomic<bool>* stop = nullptr;
   EvaluationCallback callback;
+
+  /// To be stopped by the same flag, and unheard.
+  [[nodiscard]] OptimiserControl quiet() const { return {stop, {}}; }
+  [[nodiscard]] bool stopped() const { return stop != nullptr && stop->load(); }
 };
+
+/// Of two costs, the difference that counts as one fit being better than the other.
+inline constexpr double kBetterCost = 1e-3;
 
 struct OptimiserResult {
   std::string route;  ///< "Ceres" or "NLopt" with the algorithm

@@ -84,7 +84,7 @@ class Side {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return control_.stop != nullptr && control_.stop->load(); }
+  [[nodiscard]] bool stopped() const { return control_.stopped(); }
 
   /// sqrt(delta) at a distance from the optimum; NaN where nothing can be predicted there.
   double root_at(double distance) {

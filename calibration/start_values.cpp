@@ -3,23 +3,21 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "model/law.hpp"
 
 namespace isotach::calibration {
 
 namespace {
 
 constexpr double kLargestKappaShare = 0.5;  // of lambda
-constexpr double kReferencePressure = 1e5;  // Pa
 
-std::optional<double> median(std::vector<double> values) {
+std::optional<double> median_if_any(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+  return median(values);
 }
 
 std::string counted(std::size_t count, const char* one, const char* many) {
@@ -37,8 +35,8 @@ StartValue read_lambda(const std::vector<Constructions>& tests) {
     }
   }
   if (slopes.empty()) return {std::nullopt, "no virgin compression line: " + (why.empty() ? "no test" : why)};
-  return {median(slopes), "slope of " + counted(slopes.size(), "virgin compression line",
-                                                "virgin compression lines (median)")};
+  return {median_if_any(slopes), "slope of " + counted(slopes.size(), "virgin compression line",
+                                                       "virgin compression lines (median)")};
 }
 
 StartValue read_kappa(const std::vector<Constructions>& tests, std::optional<double> lambda, double phi_c,
@@ -49,7 +47,7 @@ StartValue read_kappa(const std::vector<Constructions>& tests, std::optional<dou
       slopes.push_back(isotropic_swelling_index(-line.slope, phi_c, K0));
     }
   }
-  const auto read = median(slopes);
+  const auto read = median_if_any(slopes);
   if (!read) return {std::nullopt, "no unloading branch to draw a swelling line through"};
   std::string source = "slope of " + counted(slopes.size(), "swelling line", "swelling lines (median)") +
                        fmt::format(", made isotropic at K0 = {:.3g}", K0);
@@ -76,15 +74,15 @@ StartValue read_I_v(const std::vector<Constructions>& tests) {
       if (line.stress > yield) creeps.push_back(-line.slope / test.virgin->line.slope);
     }
   }
-  if (const auto value = median(jumps)) {
+  if (const auto value = median_if_any(jumps)) {
     return {value, counted(jumps.size(), "jump of strain rate", "jumps of strain rate (median)") +
                        " in virgin compression: step of ln stress over step of ln rate"};
   }
-  if (const auto value = median(relaxations)) {
+  if (const auto value = median_if_any(relaxations)) {
     return {value, counted(relaxations.size(), "relaxation", "relaxations (median)") +
                        ": slope of ln stress against ln time"};
   }
-  if (const auto value = median(creeps)) {
+  if (const auto value = median_if_any(creeps)) {
     return {value, counted(creeps.size(), "creep line", "creep lines (median)") +
                        ": slope of ln(1+e) against ln time over lambda"};
   }
@@ -100,7 +98,7 @@ double rate_on(const Constructions& test) {
       rates.push_back(line.slope / line.duration);
     }
   }
-  return median(rates).value_or(0.0);
+  return median_if_any(rates).value_or(0.0);
 }
 
 StartValue read_e100(const std::vector<Constructions>& tests, std::optional<double> I_v, double phi_c,
@@ -110,7 +108,7 @@ StartValue read_e100(const std::vector<Constructions>& tests, std::optional<doub
   // p_B+ over the axial stress: p = (1 + 2 K0)/3, q = 1 - K0 of it
   const double p = (1.0 + 2.0 * K0) / 3.0;
   const double equivalent = p + (1.0 - K0) * (1.0 - K0) / (M * M * p);
-  const double log_stress = std::log(kReferencePressure / equivalent);
+  const double log_stress = std::log(model::Law<double>::kReferencePressure / equivalent);
   std::vector<double> values;
   std::size_t moved = 0;
   for (const Constructions& test : tests) {
@@ -124,7 +122,7 @@ StartValue read_e100(const std::vector<Constructions>& tests, std::optional<doub
     const Line& line = test.virgin->line;
     values.push_back(std::expm1(line.intercept + line.slope * (log_stress - shift)));
   }
-  const auto value = median(values);
+  const auto value = median_if_any(values);
   if (!value) return {std::nullopt, "no virgin compression line"};
   if (!(*value > 0.0)) {
     return {std::nullopt, fmt::format("the virgin line has the void ratio {:.3g} at 100 kPa", *value)};

@@ -37,16 +37,22 @@ Selection read_selection(TomlTable& test) {
   return selection;
 }
 
-/// The selection, all of whose keys must be among those of the format.
-const Selection& checked_selection(const TomlTable& test, const DataRequest& request,
-                                   std::span<const std::string_view> keys, std::string_view format) {
+/// The one test that the study selects of those found in a file; throws InputError where that is none or
+/// several.
+template <class Found>
+const Found& selected(const std::vector<Found>& tests, const TomlTable& test, const DataRequest& request,
+                      std::span<const std::string_view> keys, std::string_view format) {
   for (const auto& [key, value] : request.select) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       throw test.error("select", fmt::format("{} tells no tests of a file in {} format apart", key, format),
                        fmt::format("{}", fmt::join(keys, ", ")));
     }
   }
-  return request.select;
+  std::vector<Selection> names;
+  for (const Found& found : tests) names.push_back(found.name);
+  const SelectedTest chosen = select_test(names, request.select);
+  if (!chosen.index) throw InputError(test.place(), "key select", chosen.problem, "one of them");
+  return tests[*chosen.index];
 }
 
 /// Refuses what is only stated of constant-rate tests where the format is one of load steps.
@@ -88,11 +94,7 @@ OedometerData read_bro(const TomlTable& test, const DataRequest& request, const 
                        const VoidRatioOf& void_ratio_of) {
   check_stepped(test, request, "BRO");
   const std::vector<BroTest> tests = find_bro_tests(table);
-  std::vector<Selection> names;
-  for (const BroTest& found : tests) names.push_back(found.name);
-  const SelectedTest selected = select_test(names, checked_selection(test, request, kBroKeys, "BRO"));
-  if (!selected.index) throw InputError(test.place(), "key select", selected.problem, "one of them");
-  const BroTest& chosen = tests[*selected.index];
+  const BroTest& chosen = selected(tests, test, request, kBroKeys, "BRO");
   OedometerData data;
   data.specimen = merged(request.specimen, chosen.specimen);
   static_cast<void>(void_ratio_of(data.specimen));
@@ -104,12 +106,7 @@ OedometerData read_ags4(const TomlTable& test, const DataRequest& request, const
                         const VoidRatioOf& void_ratio_of) {
   check_stepped(test, request, "AGS4");
   const std::vector<Ags4Oedometer> tests = find_ags4_oedometers(file);
-  std::vector<Selection> names;
-  for (const Ags4Oedometer& found : tests) names.push_back(found.name);
-  const SelectedTest selected =
-      select_test(names, checked_selection(test, request, kAgs4SpecimenKeys, "AGS4"));
-  if (!selected.index) throw InputError(test.place(), "key select", selected.problem, "one of them");
-  Ags4Oedometer chosen = read_ags4_oedometer(file, tests[*selected.index]);
+  Ags4Oedometer chosen = read_ags4_oedometer(file, selected(tests, test, request, kAgs4SpecimenKeys, "AGS4"));
   OedometerData data;
   data.specimen = merged(request.specimen, std::move(chosen.specimen));
   const double void_ratio = void_ratio_of(data.specimen);
