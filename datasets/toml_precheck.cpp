@@ -109,14 +109,16 @@ class Scanner {
     }
   }
 
-  /// A backslash and what it escapes; at the end of a line that is all white space behind it.
+  /// A backslash and what it escapes: an ASCII character; at the end of a line, all white space behind it.
   void skip_escape() {
     advance(1);
     const std::size_t next = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
-    if (next == at_) return advance(1);
+    const bool ends_line = next != at_;
     advance(next - at_);
     if (beyond_ascii()) {
-      defect_ = TomlDefect{line_, "a character outside of ASCII right behind a line-ending backslash"};
+      defect_ = TomlDefect{line_, "a character outside of ASCII right behind a backslash"};
+    } else if (!ends_line) {
+      advance(1);
     }
   }
 

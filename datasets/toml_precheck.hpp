@@ -17,8 +17,8 @@ struct TomlDefect {
 /// The first place that TOML++ 3.3 must not be shown: a table header that begins with neither a key nor a
 /// closing bracket, such as `[)`; a bracket closed by one of another kind, such as `[}`; a quote inside of a
 /// word, such as `0.1'`; a character outside of ASCII that is neither in quotes nor in a comment, or that
-/// follows a line-ending backslash in a multi-line string. All but the last, which is a rarity, are errors of
-/// TOML anyway; for none of them does the parser check what it then takes for granted.
+/// follows a backslash in a string. All are errors of TOML anyway, but for the rarity of such a character
+/// behind a line-ending backslash; for none of them does the parser check what it then takes for granted.
 [[nodiscard]] std::optional<TomlDefect> find_toml_defect(std::string_view toml);
 
 }  // namespace isotach::datasets

@@ -342,7 +342,9 @@ TEST_F(StudyFile, WhatIsNoTomlFileIsRefused) {
   refused("a = 1\n[[\nb]]\n", {"study.toml:2: TOML syntax"});
   refused("[\xC3\xA9]\n", {"study.toml:1: TOML syntax"});
   refused("note = \"\xC3\xA9\" # \xC3\xA9\n\xC3\xA9 = 1\n", {"study.toml:2: TOML syntax", "not in quotes"});
-  refused("note = \"\"\"\\\n \xC3\xA9\"\"\"\n", {"study.toml:2: TOML syntax", "line-ending backslash"});
+  refused("note = \"\"\"\\\n \xC3\xA9\"\"\"\n", {"study.toml:2: TOML syntax", "right behind a backslash"});
+  refused("note = \"\"\"\\\xEF\xBB\xBB\"\"\"\n", {"study.toml:1: TOML syntax", "right behind a backslash"});
+  refused("note = \"\\\xEF\xBB\xBB\"\n", {"study.toml:1: TOML syntax", "right behind a backslash"});
   expect_input_error([&] { static_cast<void>(read_study(folder_.path())); }, {"it is a directory"});
 }
 
