@@ -7,7 +7,8 @@
 #include "bench/counted.hpp"
 #include "bench/slump_point.hpp"
 #include "mpm/lanes.hpp"
-#include "mpm/stress_update.hpp"
+#include "mpm/materials/vhp.hpp"
+#include "tests/moving_points.hpp"
 
 namespace {
 
@@ -80,14 +81,9 @@ template <Fabric K>
 void update_of_many_points(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   const bool rotates = K == Fabric::omega;
-  mpm::Particles particles;
-  particles.count = count;
-  const std::size_t padded = mpm::Particles::padded(count, mpm::Lanes::kCount);
-  particles.for_each_array([padded](std::vector<double>& array) { array.assign(padded, 0.0); });
+  tests::MovingPoints particles(count, rotates);
+  const std::size_t padded = particles.spin.size();
   particles.void_ratio.assign(padded, bench::kVoidRatio);
-  if (rotates) {
-    for (auto& component : particles.omega) component.assign(padded, 0.0);
-  }
   for (std::size_t i = 0; i < padded; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(padded);
     particles.strain_rate[0][i] = bench::kRate * share;
@@ -96,12 +92,12 @@ void update_of_many_points(benchmark::State& state) {
     particles.spin[i] = bench::kRate * share;
   }
   const auto mud = rotates ? bench::slump_mud(10.0, 0.3) : bench::slump_mud();
-  const mpm::StressUpdate update(mud, bench::slump_tolerance().relative, 1e-3 * bench::kPressure);
+  const mpm::VhpMaterial material(mud, {bench::slump_tolerance().relative, 1e-3 * bench::kPressure, 300e3});
   for (auto _ : state) {
     state.PauseTiming();
     for (std::size_t k = 0; k < 3; ++k) particles.stress[k].assign(padded, -bench::kPressure);
     state.ResumeTiming();
-    if (update.update(particles, bench::kStep).substepped > 0)
+    if (tests::update(material, particles, bench::kStep).substepped > 0)
       state.SkipWithError("points left the common path");
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));

@@ -61,19 +61,6 @@ void refuse_effects(TomlTable& root) {
                    "it names effects, which this version cannot simulate", "no [effects], or an empty one");
 }
 
-mpm::Mould read_mould(TomlTable mould, Assumptions& assumptions) {
-  mpm::Mould result;
-  result.diameter = 1e-3 * mould.number("diameter_mm", kLength_mm);
-  result.fill_height = 1e-3 * mould.number("fill_height_mm", kLength_mm);
-  result.lift_speed = mould.number("lift_speed_m_per_s", Range::positive(10.0));
-  constexpr std::array<std::string_view, 2> kWalls{"smooth", "rough"};
-  const auto wall = mould.choice_if("wall", kWalls);
-  if (!wall) assumptions.add("wall of the mould not given, smooth assumed");
-  result.wall = wall.value_or(0) == 0 ? mpm::Wall::smooth : mpm::Wall::rough;
-  mould.reject_unknown_keys();
-  return result;
-}
-
 mpm::Mud read_mud(TomlTable mud, Assumptions& assumptions) {
   mpm::Mud result;
   result.void_ratio = mud.number_if("void_ratio", kVoidRatio);
@@ -103,17 +90,6 @@ mpm::Mud read_mud(TomlTable mud, Assumptions& assumptions) {
   result.overconsolidation_ratio = ocr.value_or(result.overconsolidation_ratio);
   mud.reject_unknown_keys();
   return result;
-}
-
-mpm::Base read_base(TomlTable& parent, Assumptions& assumptions) {
-  std::optional<std::size_t> kind;
-  if (auto base = parent.table_if("base")) {
-    constexpr std::array<std::string_view, 1> kKinds{"rough"};
-    kind = base->choice_if("kind", kKinds);
-    base->reject_unknown_keys();
-  }
-  if (!kind) assumptions.add("base not given, rough assumed");
-  return {mpm::BaseKind::rough};
 }
 
 mpm::Numerics read_numerics(TomlTable& root) {

@@ -13,7 +13,7 @@ SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, const std::atomic<boo
     const datasets::Outline& outline = test_.outlines[k];
     double top = 0.0;
     for (const auto& point : outline.points) top = std::max(top, point.z);
-    const bool gone = test_.setup.mould.lift_speed * outline.time >= top;
+    const bool gone = test_.setup.mould.rim(outline.time) >= top;
     for (std::size_t i = 0; i < outline.points.size(); ++i) {
       zeros_.push_back(0.0);
       noise_.push_back(gone ? test_.noise.outline : test_.noise.lifting);

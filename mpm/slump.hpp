@@ -35,6 +35,7 @@ struct Snapshot {
   Particles particles;
   std::vector<double> pore_pressure;            ///< Pa, compression positive
   std::vector<double> overconsolidation_ratio;  ///< -
+  std::vector<double> strain_rate_norm;  ///< |D| of the last step (1/s), its mean part as the grid has it
 };
 
 /// State the mud starts from.

@@ -2,28 +2,46 @@
 // What defines one slump test: mould, mud, base, numerics and the times at which results are wanted.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "mpm/base_friction.hpp"
+
 namespace isotach::mpm {
 
-/// How the mud meets the inside of the mould.
-enum class Wall {
-  smooth,  ///< radial confinement only, v_z free
-  rough    ///< no slip: the wall's vertical velocity is the mud's
+/// How the mud meets the inside of the mould: shear traction up to adhesion + friction times normal traction,
+/// towards the wall's vertical velocity.
+struct Wall {
+  double adhesion = 0.0;  ///< Pa, >= 0; infinite: no slip
+  double friction = 0.0;  ///< Coulomb's coefficient (-), >= 0
+
+  [[nodiscard]] static Wall smooth() { return {}; }
+  [[nodiscard]] static Wall rough() { return {std::numeric_limits<double>::infinity(), 0.0}; }
+  [[nodiscard]] bool is_smooth() const { return adhesion == 0.0 && friction == 0.0; }
+  [[nodiscard]] bool is_rough() const { return adhesion == std::numeric_limits<double>::infinity(); }
 };
 
-/// How the mud meets the base plane z = 0.
-enum class BaseKind {
-  rough  ///< rigid, no slip
+/// Height of the mould's rim at a time.
+struct RimPlace {
+  double time;    ///< s, >= 0
+  double height;  ///< m, >= 0
 };
 
-/// Cylindrical mould, filled, then raised at constant speed from t = 0. SI.
+/// Cylindrical mould, filled, then raised. SI.
 struct Mould {
   double diameter = 0.078;    ///< inner diameter (m), > 0
   double fill_height = 0.14;  ///< height of the mud (m), > 0
   double lift_speed = 0.06;   ///< m/s, > 0
-  Wall wall = Wall::smooth;
+  Wall wall;
+  double lift_delay = 0.0;           ///< s, >= 0, before the mould moves
+  std::vector<RimPlace> lift_table;  ///< in place of the speed where it is not empty: at least two places,
+                                     ///< times increasing, heights not decreasing
+
+  /// Height of the rim (m) at time t (s); the last speed of a table goes on.
+  [[nodiscard]] double rim(double t) const;
+  /// Its velocity (m/s).
+  [[nodiscard]] double rim_velocity(double t) const;
 };
 
 /// Initial state of the mud: either the void ratio, or the undrained strength it is solved from.
@@ -35,8 +53,9 @@ struct Mud {
   double overconsolidation_ratio = 1.5;      ///< OCR0 (-) of the isotropic start, > 0
 };
 
+/// How the mud meets the base plane z = 0: rigid, and without slip unless it yields to shear.
 struct Base {
-  BaseKind kind = BaseKind::rough;
+  BaseFriction friction;
 };
 
 /// Numerical choices; the defaults are meant to be kept.
@@ -48,6 +67,7 @@ struct Numerics {
   double tolerance = 3e-3;            ///< relative tolerance of the stress update in a step
   double artificial_viscosity =
       0.02;  ///< alpha of eta = alpha rho c h (-), in [0, 0.2]; fades with the cell size
+  int threads = 1;
   double inertia_scaling = 100.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
 };
 

@@ -75,7 +75,6 @@ void add_point_data(pugi::xml_node piece, const mpm::Snapshot& snapshot) {
   const mpm::Particles& points = snapshot.particles;
   const std::size_t n = points.count;
   const auto& T = points.stress;
-  const auto& D = points.strain_rate;
   const auto pressure = [&](std::size_t i) { return -(T[0][i] + T[1][i] + T[2][i]) / 3.0; };
 
   pugi::xml_node data = piece.append_child("PointData");
@@ -102,9 +101,7 @@ void add_point_data(pugi::xml_node piece, const mpm::Snapshot& snapshot) {
   add_array(data, "Float64", "void_ratio", each(n, [&](std::size_t i) { return points.void_ratio[i]; }));
   add_array(data, "Float64", "overconsolidation_ratio",
             each(n, [&](std::size_t i) { return snapshot.overconsolidation_ratio[i]; }));
-  add_array(data, "Float64", "strain_rate_norm_per_s", each(n, [&](std::size_t i) {
-              return std::sqrt(D[0][i] * D[0][i] + D[1][i] * D[1][i] + D[2][i] * D[2][i] + D[3][i] * D[3][i]);
-            }));
+  add_array(data, "Float64", "strain_rate_norm_per_s", snapshot.strain_rate_norm);
 }
 
 /// The root of a VTK file.

@@ -149,11 +149,11 @@ void add_summary(Page& page, const datasets::SlumpFile& test, const SlumpResult&
                              "least pressure, as where the skeleton has lost contact.",
                              result.floored, format_number(result.particle_steps, 3)));
   }
-  page.fact("Mould", fmt::format("diameter {} mm, fill {} mm, raised at {} m/s, {} wall",
-                                 format_number(kMillimetres * test.setup.mould.diameter, 3),
-                                 format_number(kMillimetres * test.setup.mould.fill_height, 3),
-                                 format_number(test.setup.mould.lift_speed, 2),
-                                 test.setup.mould.wall == mpm::Wall::smooth ? "smooth" : "rough"));
+  page.fact("Mould",
+            fmt::format("diameter {} mm, fill {} mm, raised at {} m/s, {} wall",
+                        format_number(kMillimetres * test.setup.mould.diameter, 3),
+                        format_number(kMillimetres * test.setup.mould.fill_height, 3),
+                        format_number(test.setup.mould.lift_speed, 2), words_of(test.setup.mould.wall)));
   page.fact("Mud",
             fmt::format("e0 = {}, density {} kg/m³, OCR at the start {}, C_u = {} kPa at |D| = {} 1/s",
                         format_number(result.initial.void_ratio), format_number(result.initial.density),

@@ -38,14 +38,14 @@ Table start_table(std::span<const NamedRun> runs) {
   for (const NamedRun& run : runs) {
     const mpm::Mould& mould = run.setup->mould;
     const mpm::InitialState& initial = run.result->initial;
-    table.rows.push_back(
-        {run.name, format_number(kMillimetres * mould.diameter, 3),
-         format_number(kMillimetres * mould.fill_height, 3),
-         format_number(mould.fill_height / mould.diameter, 3), format_number(mould.lift_speed, 2),
-         mould.wall == mpm::Wall::smooth ? "smooth" : "rough", format_number(initial.void_ratio),
-         format_number(initial.density), format_number(1e-3 * initial.preconsolidation_pressure, 3),
-         format_number(1e-3 * initial.mean_effective_pressure, 3),
-         format_number(1e-3 * initial.undrained_strength, 3)});
+    table.rows.push_back({run.name, format_number(kMillimetres * mould.diameter, 3),
+                          format_number(kMillimetres * mould.fill_height, 3),
+                          format_number(mould.fill_height / mould.diameter, 3),
+                          format_number(mould.lift_speed, 2), words_of(mould.wall),
+                          format_number(initial.void_ratio), format_number(initial.density),
+                          format_number(1e-3 * initial.preconsolidation_pressure, 3),
+                          format_number(1e-3 * initial.mean_effective_pressure, 3),
+                          format_number(1e-3 * initial.undrained_strength, 3)});
   }
   const double rate = runs.empty() ? 0.0 : runs.front().result->initial.strength_rate;
   table.notes = {
@@ -125,6 +125,17 @@ std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {
   }
   for (std::size_t i = 0; i < count; ++i) indices.push_back(i * (size - 1) / (count - 1));
   return indices;
+}
+
+std::string words_of(const mpm::Wall& wall) {
+  if (wall.is_smooth()) return "smooth";
+  if (wall.is_rough()) return "rough";
+  std::string words;
+  if (wall.adhesion > 0.0) words = fmt::format("adhesion {} kPa", format_number(1e-3 * wall.adhesion, 3));
+  if (wall.friction > 0.0) {
+    words += fmt::format("{}friction {}", words.empty() ? "" : ", ", format_number(wall.friction, 3));
+  }
+  return words;
 }
 
 }  // namespace isotach::reports

@@ -36,4 +36,7 @@ struct NamedRun {
 /// Indices of at most `count` of `size` things, evenly spread, the first and the last among them.
 [[nodiscard]] std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count);
 
+/// The mould's wall in words: "smooth", "rough", or its limits.
+[[nodiscard]] std::string words_of(const mpm::Wall& wall);
+
 }  // namespace isotach::reports

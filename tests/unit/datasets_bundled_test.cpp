@@ -58,7 +58,7 @@ TEST_P(BundledStudy, HoldsWhatTheVirtualLaboratoryStates) {
     const bool fast = i % 4 < 2;
     EXPECT_DOUBLE_EQ(test.setup.mould.lift_speed, fast ? 0.06 : 0.01);
     EXPECT_DOUBLE_EQ(test.setup.mould.fill_height, i % 2 == 0 ? 0.14 : 0.07);
-    EXPECT_EQ(test.setup.mould.wall, mpm::Wall::smooth);
+    EXPECT_TRUE(test.setup.mould.wall.is_smooth());
     EXPECT_DOUBLE_EQ(test.setup.mud.void_ratio.value(), i < 4 ? mud.stiff_void_ratio : mud.soft_void_ratio);
     EXPECT_DOUBLE_EQ(test.setup.numerics.water_bulk_modulus, 3e5);
     EXPECT_EQ(test.setup.times, fast ? (std::vector{0.5, 1.0, 2.0, 5.0, 15.0, 30.0})
@@ -100,7 +100,7 @@ TEST(BundledData, EverySlumpFileIsReadAndUsesTheSeedsMaterial) {
     EXPECT_DOUBLE_EQ(slump.material.D_r(), 6.8e-7);
     EXPECT_DOUBLE_EQ(slump.material.phi_c(), 14.2 * std::numbers::pi / 180.0);
     EXPECT_DOUBLE_EQ(slump.setup.mould.diameter, 0.078);
-    EXPECT_EQ(slump.setup.mould.wall, mpm::Wall::smooth);
+    EXPECT_TRUE(slump.setup.mould.wall.is_smooth());
     EXPECT_DOUBLE_EQ(slump.setup.numerics.cell_size, 0.008);
     EXPECT_EQ(slump.setup.numerics.points_per_cell, 4);
     EXPECT_DOUBLE_EQ(slump.setup.times.back(), 30.0);

@@ -64,6 +64,49 @@ TEST_F(SlumpFileTest, MistakesAreNamed) {
           {"cell_size_mm", "4 is out of range (its default)", "3.9"});
 }
 
+TEST_F(SlumpFileTest, WallsBasesAndLiftsComeOutInSI) {
+  const auto setup = [&](std::string_view from, std::string_view to) {
+    return read_slump_file(folder_.write("slump.toml", replaced(std::string(kSlump), from, to))).setup;
+  };
+  EXPECT_TRUE(setup("", "").mould.wall.is_smooth());
+  const auto with = [&](const std::string& keys) {
+    return setup("lift_speed_m_per_s = 0.01\n", "lift_speed_m_per_s = 0.01\n" + keys + "\n");
+  };
+  EXPECT_TRUE(with("wall = \"rough\"").mould.wall.is_rough());
+  const mpm::Wall wall = with("wall = { adhesion_kPa = 0.05, friction = 0.2 }").mould.wall;
+  EXPECT_DOUBLE_EQ(wall.adhesion, 50.0);
+  EXPECT_DOUBLE_EQ(wall.friction, 0.2);
+  EXPECT_DOUBLE_EQ(with("lift_delay_s = 0.5").mould.lift_delay, 0.5);
+  EXPECT_DOUBLE_EQ(with("[base]\nkind = \"limited\"\nshear_limit_kPa = 0.1").base.friction.adhesion, 100.0);
+  EXPECT_DOUBLE_EQ(with("[base]\nkind = \"navier\"\nslip_length_mm = 2").base.friction.slip_length, 0.002);
+  EXPECT_FALSE(with("[base]\nkind = \"rough\"").base.friction.yields());
+  const mpm::Mould filmed =
+      setup("lift_speed_m_per_s = 0.01", "lift_times_s = [0.2, 1, 3]\nlift_heights_mm = [0, 10, 160]").mould;
+  ASSERT_EQ(filmed.lift_table.size(), 3U);
+  EXPECT_DOUBLE_EQ(filmed.rim(1.0), 0.01);
+  EXPECT_DOUBLE_EQ(filmed.rim(2.0), 0.085);
+}
+
+TEST_F(SlumpFileTest, MistakesInWallsBasesAndLiftsAreNamed) {
+  const auto refused = [&](const std::string& keys, std::initializer_list<std::string_view> parts) {
+    const auto file =
+        folder_.write("slump.toml", replaced(std::string(kSlump), "lift_speed_m_per_s = 0.01", keys));
+    expect_input_error([&] { static_cast<void>(read_slump_file(file)); }, parts);
+  };
+  const std::string speed = "lift_speed_m_per_s = 0.01\n";
+  refused(speed + "wall = { adhesion_kPa = -1 }", {"slump.toml:16: key adhesion_kPa", "-1 is out of range"});
+  refused(speed + "wall = { cohesion = 1 }", {"key cohesion", "it is unknown"});
+  refused(speed + "wall = \"sticky\"", {"slump.toml:16: key wall", "smooth", "rough"});
+  refused("lift_times_s = [0, 1]", {"key lift_heights_mm in [mould]: it is missing"});
+  refused("lift_times_s = [0]\nlift_heights_mm = [0]", {"key lift_times_s", "fewer than two"});
+  refused("lift_times_s = [0, 1]\nlift_heights_mm = [0]", {"key lift_heights_mm", "1 heights for 2 times"});
+  refused("lift_times_s = [0, 0]\nlift_heights_mm = [0, 1]", {"key lift_times_s", "0 follows 0"});
+  refused("lift_times_s = [0, 1]\nlift_heights_mm = [2, 1]", {"key lift_heights_mm", "1 follows 2"});
+  refused(speed + "lift_times_s = [0, 1]\nlift_heights_mm = [0, 1]", {"key lift_speed_m_per_s", "not both"});
+  refused(speed + "[base]\nkind = \"limited\"", {"key shear_limit_kPa in [base]: it is missing"});
+  refused(speed + "[base]\nkind = \"rough\"\nslip_length_mm = 1", {"key slip_length_mm", "it is unknown"});
+}
+
 TEST_F(SlumpFileTest, WhatIsNoTomlFileIsRefused) {
   expect_input_error([&] { static_cast<void>(read_slump_file(folder_.path())); }, {"it is a directory"});
   expect_input_error([&] { static_cast<void>(read_slump_file(folder_.write("slump.toml", ""))); },

@@ -125,7 +125,7 @@ TEST_F(StudyFile, ComesOutInSI) {
   EXPECT_DOUBLE_EQ(slump.setup.mould.diameter, 0.078);
   EXPECT_DOUBLE_EQ(slump.setup.mould.fill_height, 0.14);
   EXPECT_DOUBLE_EQ(slump.setup.mould.lift_speed, 0.06);
-  EXPECT_EQ(slump.setup.mould.wall, mpm::Wall::rough);
+  EXPECT_TRUE(slump.setup.mould.wall.is_rough());
   EXPECT_DOUBLE_EQ(slump.setup.mud.void_ratio.value(), 3.9);
   EXPECT_DOUBLE_EQ(slump.setup.mud.specific_gravity, 2.7);
   EXPECT_DOUBLE_EQ(slump.setup.mud.overconsolidation_ratio, 2.0);

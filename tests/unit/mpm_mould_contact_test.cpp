@@ -16,8 +16,8 @@ constexpr double kMass = 1e-4;             // kg/rad
 constexpr double kStep = 1e-4;             // s
 constexpr double kArea = kRadius * kSize;  // of the wall a point covers, per radian
 
-MouldContact contact(Wall wall) {
-  return MouldContact({2.0 * kRadius, 0.14, kLift, wall}, kSize, kStiffness, kDamping);
+MouldContact contact(const Wall& wall) {
+  return MouldContact({2.0 * kRadius, 0.14, kLift, wall, 0.0, {}}, {kSize, kStiffness, kDamping});
 }
 
 /// A point, resting unless said otherwise, with its outer edge `depth` beyond the wall.
@@ -31,18 +31,39 @@ struct Point {
   double rim = 0.0;
 };
 
-WallForce force(const Point& p, Wall wall = Wall::smooth) {
-  return contact(wall).force(kRadius - 0.5 * kSize + p.depth, p.z, p.velocity_r, p.velocity_z, kMass,
-                             p.pressure, p.initial_pressure, p.rim, kStep);
+WallForce force(const Point& p, const Wall& wall = Wall::smooth()) {
+  return contact(wall).force({kRadius - 0.5 * kSize + p.depth, p.z, p.velocity_r, p.velocity_z, kMass,
+                              p.pressure, p.initial_pressure},
+                             p.rim, kLift, kStep);
 }
 
-TEST(MouldContact, RimRisesAtTheLiftSpeed) {
-  EXPECT_DOUBLE_EQ(contact(Wall::smooth).rim(0.0), 0.0);
-  EXPECT_DOUBLE_EQ(contact(Wall::smooth).rim(2.5), 0.15);
+TEST(Mould, RimRisesAtTheLiftSpeedOnceTheDelayIsOver) {
+  Mould mould;
+  mould.lift_speed = kLift;
+  EXPECT_DOUBLE_EQ(mould.rim(0.0), 0.0);
+  EXPECT_DOUBLE_EQ(mould.rim(2.5), 0.15);
+  EXPECT_DOUBLE_EQ(mould.rim_velocity(2.5), kLift);
+  mould.lift_delay = 0.5;
+  EXPECT_DOUBLE_EQ(mould.rim(0.4), 0.0);
+  EXPECT_DOUBLE_EQ(mould.rim_velocity(0.4), 0.0);
+  EXPECT_DOUBLE_EQ(mould.rim(3.0), 0.15);
+}
+
+TEST(Mould, RimFollowsATable) {
+  Mould mould;
+  mould.lift_table = {{0.5, 0.0}, {1.0, 0.02}, {3.0, 0.1}};
+  EXPECT_DOUBLE_EQ(mould.rim(0.2), 0.0);
+  EXPECT_DOUBLE_EQ(mould.rim_velocity(0.2), 0.0);
+  EXPECT_DOUBLE_EQ(mould.rim(0.75), 0.01);
+  EXPECT_DOUBLE_EQ(mould.rim(2.0), 0.06);
+  EXPECT_DOUBLE_EQ(mould.rim_velocity(2.0), 0.04);
+  EXPECT_DOUBLE_EQ(mould.rim(4.0), 0.14);  // the last speed goes on
+  mould.lift_delay = 1.0;
+  EXPECT_DOUBLE_EQ(mould.rim(3.0), 0.06);
 }
 
 TEST(MouldContact, PointShortOfTheWallFeelsNothing) {
-  for (const Wall wall : {Wall::smooth, Wall::rough}) {
+  for (const Wall& wall : {Wall::smooth(), Wall::rough()}) {
     const WallForce f = force({.depth = -1e-6, .velocity_r = 0.1, .velocity_z = -0.1}, wall);
     EXPECT_EQ(f.r, 0.0);
     EXPECT_EQ(f.z, 0.0);
@@ -83,7 +104,7 @@ TEST(MouldContact, SupportEndsContinuouslyAsTheRimPasses) {
 }
 
 TEST(MouldContact, PointThatLeftBelowTheRimStandsOutsideFree) {
-  for (const Wall wall : {Wall::smooth, Wall::rough}) {
+  for (const Wall& wall : {Wall::smooth(), Wall::rough()}) {
     const WallForce f = force({.depth = 1.1 * kSize, .z = 0.05, .rim = 0.0}, wall);
     EXPECT_EQ(f.r, 0.0);
     EXPECT_EQ(f.z, 0.0);
@@ -91,21 +112,34 @@ TEST(MouldContact, PointThatLeftBelowTheRimStandsOutsideFree) {
 }
 
 TEST(MouldContact, OnlyARoughWallDragsAndNeverPastItsOwnSpeed) {
-  EXPECT_EQ(force({.depth = 1e-5}, Wall::smooth).z, 0.0);
-  const double up = force({.depth = 1e-5, .velocity_z = -0.02}, Wall::rough).z;
+  EXPECT_EQ(force({.depth = 1e-5}, Wall::smooth()).z, 0.0);
+  const double up = force({.depth = 1e-5, .velocity_z = -0.02}, Wall::rough()).z;
   EXPECT_GT(up, 0.0);
   EXPECT_LT(up * kStep / kMass, kLift + 0.02);
-  const double down = force({.depth = 1e-5, .velocity_z = 0.1}, Wall::rough).z;
+  const double down = force({.depth = 1e-5, .velocity_z = 0.1}, Wall::rough()).z;
   EXPECT_LT(down, 0.0);
   EXPECT_GT(down * kStep / kMass, kLift - 0.1);
-  EXPECT_EQ(force({.depth = 1e-5, .velocity_z = kLift}, Wall::rough).z, 0.0);
+  EXPECT_EQ(force({.depth = 1e-5, .velocity_z = kLift}, Wall::rough()).z, 0.0);
 }
 
 TEST(MouldContact, DragIsSharedUnderTheRimToo) {
   const Point whole{.depth = 1e-5, .rim = 0.0};
   const Point half{.depth = 1e-5, .rim = 0.05};
-  EXPECT_NEAR(force(half, Wall::rough).z, 0.5 * force(whole, Wall::rough).z,
-              1e-9 * force(whole, Wall::rough).z);
+  EXPECT_NEAR(force(half, Wall::rough()).z, 0.5 * force(whole, Wall::rough()).z,
+              1e-9 * force(whole, Wall::rough()).z);
+}
+
+// A limit on shear changes nothing where the wall does not need it, and is what it says where it does.
+TEST(MouldContact, ShearIsLimitedByAdhesionAndByFriction) {
+  const Point slipping{.depth = 1e-5, .velocity_z = -0.02};  // pressed with 500 Pa
+  const double rough = force(slipping, Wall::rough()).z;
+  EXPECT_DOUBLE_EQ(force(slipping, {1e6, 0.0}).z, rough);
+  EXPECT_NEAR(force(slipping, {30.0, 0.0}).z, 30.0 * kArea, 1e-9 * kArea);
+  EXPECT_NEAR(force(slipping, {0.0, 0.1}).z, 50.0 * kArea, 1e-6 * kArea);
+  EXPECT_NEAR(force(slipping, {30.0, 0.1}).z, 80.0 * kArea, 1e-6 * kArea);
+  const Point falling_back{.depth = 1e-5, .velocity_z = 0.5};
+  EXPECT_NEAR(force(falling_back, {30.0, 0.0}).z, -30.0 * kArea, 1e-9 * kArea);
+  EXPECT_EQ(force(slipping, {0.0, 0.0}).z, 0.0);
 }
 
 }  // namespace

@@ -69,11 +69,10 @@ mpm::Snapshot two_points() {
   points.stress[1] = {-90.0, -10.0};
   points.stress[2] = {-30.0, -10.0};
   points.stress[3] = {std::numbers::sqrt2 * 7.0, 0.0};
-  points.strain_rate[0] = {3.0, 0.0};
-  points.strain_rate[3] = {4.0, 0.0};
   points.void_ratio = {3.5, 3.6};
   snapshot.pore_pressure = {100.0, -5.0};
   snapshot.overconsolidation_ratio = {1.5, 1.25};
+  snapshot.strain_rate_norm = {5.0, 0.0};
   return snapshot;
 }
 

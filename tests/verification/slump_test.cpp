@@ -122,7 +122,7 @@ TEST_F(Slump, SameInputGivesTheSameBytes) {
 TEST_F(Slump, RoughWallHoldsTheMudBack) {
   SlumpSetup setup = test_1(8 * kMillimetre, {0.25, 0.5, 1.0, 2.0, 5.0});
   const SlumpResult smooth = run(setup);
-  setup.mould.wall = Wall::rough;
+  setup.mould.wall = Wall::rough();
   const SlumpResult rough = run(setup);
   for (std::size_t i = 0; i < setup.times.size(); ++i) {
     EXPECT_GT(rough.outlines[i].height(), smooth.outlines[i].height()) << "at " << setup.times[i] << " s";

@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "integrators/fellin_ostermann.hpp"
-#include "mpm/lanes.hpp"
-#include "mpm/stress_update.hpp"
+#include "mpm/materials/vhp.hpp"
+#include "tests/moving_points.hpp"
 #include "tests/seed_mud.hpp"
 
 namespace isotach::mpm {
 namespace {
 
 using model::kPlane;
+using tests::MovingPoints;
+using tests::update;
 using PlaneState = model::State<double, kPlane>;
 using PlaneRate = model::StateRate<double, kPlane>;
 using Vector4 = model::Mandel<double, kPlane>;
@@ -38,6 +40,10 @@ model::Law<double> rotating_law(double C_2 = 200.0) {
   return model::Law<double>(model::Parameters<double>::create(values).value());
 }
 
+VhpMaterial mud(const model::Law<double>& law, double tolerance) {
+  return VhpMaterial(law.parameters(), {tolerance, kLeastPressure, 300e3});
+}
+
 /// Shears as in a slump: p' 0.3 to 0.9 kPa at e 3.891, |Omega| up to a third of M_c, D up to `rate` (1/s).
 std::vector<Point> random_points(double critical_ratio, double rate, unsigned seed) {
   std::mt19937 random(seed);
@@ -58,13 +64,9 @@ std::vector<Point> random_points(double critical_ratio, double rate, unsigned se
   return points;
 }
 
-Particles particles_of(const std::vector<Point>& points) {
-  Particles particles;
-  particles.count = points.size();
-  const std::size_t padded = Particles::padded(points.size(), Lanes::kCount);
-  particles.for_each_array([&](std::vector<double>& array) { array.assign(padded, 0.0); });
-  for (auto& component : particles.omega) component.assign(padded, 0.0);
-  for (std::size_t i = 0; i < padded; ++i) {
+MovingPoints particles_of(const std::vector<Point>& points) {
+  MovingPoints particles(points.size(), true);
+  for (std::size_t i = 0; i < particles.spin.size(); ++i) {
     const Point& point = points[std::min(i, points.size() - 1)];
     for (std::size_t k = 0; k < kPlane; ++k) {
       const int component = static_cast<int>(k);
@@ -105,15 +107,13 @@ PlaneState converged(const model::Law<double>& law, const Point& point, double d
   return state;
 }
 
-TEST(RotatingStressUpdate, EasyStepIsTheMidpointStepOfTheScalarLaw) {
+TEST(RotatingVhpMaterial, EasyStepIsTheMidpointStepOfTheScalarLaw) {
   constexpr double kStep = 1e-5;  // s
   const model::Law<double> law = rotating_law();
   for (unsigned seed = 0; seed < 50; ++seed) {
     const std::vector<Point> points = random_points(law.critical_ratio(), 0.5, seed);
-    Particles particles = particles_of(points);
-    EXPECT_EQ(
-        StressUpdate(law.parameters(), kSlumpTolerance, kLeastPressure).update(particles, kStep).substepped,
-        0);
+    MovingPoints particles = particles_of(points);
+    EXPECT_EQ(update(mud(law, kSlumpTolerance), particles, kStep).substepped, 0);
     for (std::size_t i = 0; i < kPoints; ++i) {
       const PlaneState expected = midpoint_step(law, points[i], kStep);
       const PlaneState got = particles.state(i);
@@ -127,7 +127,7 @@ TEST(RotatingStressUpdate, EasyStepIsTheMidpointStepOfTheScalarLaw) {
   }
 }
 
-TEST(RotatingStressUpdate, TighterToleranceComesCloserInStressAndOmega) {
+TEST(RotatingVhpMaterial, TighterToleranceComesCloserInStressAndOmega) {
   constexpr double kStep = 5e-3;
   const model::Law<double> law = rotating_law(1e4);
   const std::vector<Point> points = random_points(law.critical_ratio(), 1.0, 2);
@@ -141,8 +141,8 @@ TEST(RotatingStressUpdate, TighterToleranceComesCloserInStressAndOmega) {
   std::vector<double> stress_error;
   std::vector<double> omega_error;
   for (const double tolerance : {3e-3, 3e-5}) {
-    Particles particles = particles_of(points);
-    EXPECT_EQ(StressUpdate(law.parameters(), tolerance, kLeastPressure).update(particles, kStep).floored, 0);
+    MovingPoints particles = particles_of(points);
+    EXPECT_EQ(update(mud(law, tolerance), particles, kStep).floored, 0);
     stress_error.push_back(0.0);
     omega_error.push_back(0.0);
     for (std::size_t i = 0; i < kPoints; ++i) {
@@ -159,14 +159,13 @@ TEST(RotatingStressUpdate, TighterToleranceComesCloserInStressAndOmega) {
   EXPECT_LT(omega_error[0], 10.0 * 3e-3);
 }
 
-TEST(RotatingStressUpdate, LargeStepOfOnePointIsSubsteppedByItselfAndAccurate) {
+TEST(RotatingVhpMaterial, LargeStepOfOnePointIsSubsteppedByItselfAndAccurate) {
   constexpr double kStep = 1e-3;
   const model::Law<double> law = rotating_law();
   std::vector<Point> points = random_points(law.critical_ratio(), 0.01, 4);
   points[5].strain_rate *= 3000.0;
-  Particles particles = particles_of(points);
-  const StressUpdateCount count =
-      StressUpdate(law.parameters(), kSlumpTolerance, kLeastPressure).update(particles, kStep);
+  MovingPoints particles = particles_of(points);
+  const MaterialCount count = update(mud(law, kSlumpTolerance), particles, kStep);
   EXPECT_EQ(count.substepped, 1);
   EXPECT_EQ(count.floored, 0);
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -181,19 +180,20 @@ TEST(RotatingStressUpdate, LargeStepOfOnePointIsSubsteppedByItselfAndAccurate) {
 
 // The two forms are chosen by C_2: with a C_2 of next to nothing, the form with Omega runs and Omega stays at
 // zero.
-TEST(RotatingStressUpdate, FormWithOmegaGivesTheStressesOfTheFormWithout) {
+TEST(RotatingVhpMaterial, FormWithOmegaGivesTheStressesOfTheFormWithout) {
   constexpr double kStep = 1e-4;
   auto values = tests::seed_mud_values();
   values[model::ParameterId::C_2] = 1e-300;
-  const StressUpdate with(model::Parameters<double>::create(values).value(), kSlumpTolerance, kLeastPressure);
-  const StressUpdate without(tests::seed_mud(), kSlumpTolerance, kLeastPressure);
+  const VhpMaterial with(model::Parameters<double>::create(values).value(),
+                         {kSlumpTolerance, kLeastPressure, 300e3});
+  const VhpMaterial without(tests::seed_mud(), {kSlumpTolerance, kLeastPressure, 300e3});
   std::vector<Point> points = random_points(1.0, 0.3, 6);
   for (Point& point : points) point.state.omega.setZero();
-  Particles inclined = particles_of(points);
-  Particles upright = particles_of(points);
+  MovingPoints inclined = particles_of(points);
+  MovingPoints upright = particles_of(points);
   for (int step = 0; step < 20; ++step) {
-    with.update(inclined, kStep);
-    without.update(upright, kStep);
+    update(with, inclined, kStep);
+    update(without, upright, kStep);
   }
   for (std::size_t i = 0; i < kPoints; ++i) {
     for (std::size_t k = 0; k < kPlane; ++k) EXPECT_EQ(inclined.stress[k][i], upright.stress[k][i]);
@@ -202,13 +202,12 @@ TEST(RotatingStressUpdate, FormWithOmegaGivesTheStressesOfTheFormWithout) {
   }
 }
 
-TEST(RotatingStressUpdate, OmegaOfAPointThatLosesContactIsZero) {
+TEST(RotatingVhpMaterial, OmegaOfAPointThatLosesContactIsZero) {
   const model::Law<double> law = rotating_law();
   std::vector<Point> points = random_points(law.critical_ratio(), 1e-4, 5);
   points[9].strain_rate << 1.0, 1.0, 1.0, 0.0;
-  Particles particles = particles_of(points);
-  const StressUpdateCount count =
-      StressUpdate(law.parameters(), kSlumpTolerance, kLeastPressure).update(particles, 0.1);
+  MovingPoints particles = particles_of(points);
+  const MaterialCount count = update(mud(law, kSlumpTolerance), particles, 0.1);
   EXPECT_EQ(count.floored, 1);
   EXPECT_EQ(particles.state(9).omega, Vector4::Zero());
 }

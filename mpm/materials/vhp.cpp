@@ -1,5 +1,5 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-#include "mpm/stress_update.hpp"
+#include "mpm/materials/vhp.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,16 +29,17 @@ struct Pack {
 };
 
 template <Fabric K>
-Pack<K> load(const Particles& particles, std::size_t start) {
+Pack<K> load(const Particles& particles, const MaterialBlock& block, std::size_t p) {
   Pack<K> pack;
+  const std::size_t start = block.begin + p;
   for (std::size_t k = 0; k < kPlane; ++k) {
     const int component = static_cast<int>(k);
     pack.state.stress[component] = Lanes::load(&particles.stress[k][start]);
-    pack.strain_rate[component] = Lanes::load(&particles.strain_rate[k][start]);
+    pack.strain_rate[component] = Lanes::load(&block.strain_rate[k][p]);
     if constexpr (K == Fabric::omega) pack.state.omega[component] = Lanes::load(&particles.omega[k][start]);
   }
   pack.state.void_ratio = Lanes::load(&particles.void_ratio[start]);
-  pack.spin[0] = Lanes::load(&particles.spin[start]);
+  pack.spin[0] = Lanes::load(&block.spin[p]);
   pack.spin[1] = pack.spin[2] = Lanes(0.0);
   return pack;
 }
@@ -98,10 +99,11 @@ class PackSteps {
         inverse_tolerance_squared_(1.0 / (tolerance * tolerance)),
         least_pressure_(least_pressure) {}
 
-  /// The pack of points from `start` on after `dt`.
-  [[gnu::flatten]] void operator()(const Particles& particles, std::size_t start, double dt, int substeps,
-                                   Trial<K>& trial) const {
-    const Pack<K> pack = load<K>(particles, start);
+  /// The pack of the block's points from p on after the step.
+  [[gnu::flatten]] void operator()(const Particles& particles, const MaterialBlock& block, std::size_t p,
+                                   int substeps, Trial<K>& trial) const {
+    const Pack<K> pack = load<K>(particles, block, p);
+    const double dt = block.dt;
     model::State<Lanes, kPlane, K> y = pack.state;
     const Lanes whole(dt / substeps);
     const Lanes half(0.5 * dt / substeps);
@@ -172,65 +174,109 @@ class PackSteps {
 
 }  // namespace
 
-StressUpdate::StressUpdate(const model::Parameters<double>& parameters, double tolerance,
-                           double least_pressure)
-    : law_(parameters), tolerance_(tolerance), least_pressure_(least_pressure) {}
+VhpMaterial::VhpMaterial(const model::Parameters<double>& parameters, const Settings& settings)
+    : law_(parameters), settings_(settings) {
+  // along That the skeleton is stiffest: f_b (F^2 + a^2 |That|^2), F <= 1, |That| <= 1
+  const double a2 = law_.a_squared();
+  skeleton_factor_ = 3.0 * (1.0 + a2) / ((1.0 + a2 / 3.0) * parameters.kappa());
+}
 
-StressUpdateCount StressUpdate::update(Particles& particles, double dt) const {
-  return law_.parameters().rotates() ? update_form<Fabric::omega>(particles, dt)
-                                     : update_form<Fabric::none>(particles, dt);
+double VhpMaterial::modulus(double pressure, double void_ratio) const {
+  return settings_.water_bulk_modulus * (1.0 + void_ratio) / void_ratio + skeleton_factor_ * pressure;
+}
+
+double VhpMaterial::wave_modulus(const Particles& particles, std::size_t i) const {
+  return modulus(particles.mean_effective_pressure(i), particles.void_ratio[i]);
+}
+
+double VhpMaterial::reference_pressure(double pore_pressure, double void_ratio) const {
+  return pore_pressure + settings_.water_bulk_modulus * std::log(void_ratio);
+}
+
+double VhpMaterial::pore_pressure(const Particles& particles, std::size_t i) const {
+  return particles.reference_pressure[i] - settings_.water_bulk_modulus * std::log(particles.void_ratio[i]);
+}
+
+void VhpMaterial::total_pressure(const Particles& particles, std::size_t begin, std::size_t count,
+                                 double* pressures) const {
+  for (std::size_t p = 0; p < count; ++p) {
+    pressures[p] = particles.mean_effective_pressure(begin + p) + pore_pressure(particles, begin + p);
+  }
+}
+
+void VhpMaterial::update(Particles& particles, MaterialBlock& block, MaterialCount& count) const {
+  if (law_.parameters().rotates()) {
+    update_form<Fabric::omega>(particles, block, count);
+  } else {
+    update_form<Fabric::none>(particles, block, count);
+  }
 }
 
 template <Fabric K>
-StressUpdateCount StressUpdate::update_form(Particles& particles, double dt) const {
-  StressUpdateCount count;
-  const PackSteps<K> advance(law_, tolerance_, least_pressure_);
+void VhpMaterial::update_form(Particles& particles, MaterialBlock& block, MaterialCount& count) const {
+  const PackSteps<K> advance(law_, settings_.tolerance, settings_.least_pressure);
+  const Lanes bulk(settings_.water_bulk_modulus);
   Trial<K> trial;
-  for (std::size_t start = 0; start < particles.count; start += Lanes::kCount) {
-    advance(particles, start, dt, 1, trial);
+  Lanes highest(0.0);
+  Lanes densest(-HUGE_VAL);
+  for (std::size_t p = 0; p < block.count; p += Lanes::kCount) {
+    advance(particles, block, p, 1, trial);
     if (trial.worst > 1.0) {
       // EST is of order tau^2; a pack that one substep cannot serve takes as many as its worst point asks for
       const double wanted = std::ceil(kSubstepMargin * std::pow(trial.worst, 0.25));
-      advance(particles, start, dt, static_cast<int>(std::min(wanted, double{kMostPackSubsteps})), trial);
+      advance(particles, block, p, static_cast<int>(std::min(wanted, double{kMostPackSubsteps})), trial);
     }
+    const std::size_t start = block.begin + p;
     if (trial.worst <= 1.0) {
       store<K>(trial.state, particles, start);
-      continue;
-    }
-    const std::size_t end = std::min(start + Lanes::kCount, particles.count);
-    for (std::size_t i = start; i < end; ++i) {
-      if (trial.errors[i - start] <= 1.0) {
-        store<K>(lane_of<K>(trial.state, i - start), particles, i);
-      } else {
-        ++count.substepped;
-        if (!substep<K>(particles, i, dt)) ++count.floored;
+    } else {
+      const std::size_t end = std::min(p + Lanes::kCount, block.count);
+      for (std::size_t point = p; point < end; ++point) {
+        if (trial.errors[point - p] <= 1.0) {
+          store<K>(lane_of<K>(trial.state, point - p), particles, block.begin + point);
+        } else {
+          ++count.substepped;
+          if (!substep<K>(particles, block, point)) ++count.floored;
+        }
       }
+      for (int k = 0; k < kPlane; ++k) {
+        trial.state.stress[k] = Lanes::load(&particles.stress[static_cast<std::size_t>(k)][start]);
+      }
+      trial.state.void_ratio = Lanes::load(&particles.void_ratio[start]);
     }
+    const Lanes pressure = model::trace<Lanes, kPlane>(trial.state.stress) * (-1.0 / 3.0);
+    const Lanes water =
+        Lanes::load(&particles.reference_pressure[start]) - bulk * log(trial.state.void_ratio);
+    (pressure + water).store(&block.total_pressure[p]);
+    highest = max(highest, pressure);
+    densest = max(densest, -trial.state.void_ratio);
   }
-  return count;
+  count.stiffest = std::max(count.stiffest, modulus(largest(highest), -largest(densest)));
 }
 
 template <Fabric K>
-bool StressUpdate::substep(Particles& particles, std::size_t i, double dt) const {
+bool VhpMaterial::substep(Particles& particles, const MaterialBlock& block, std::size_t p) const {
   using State = model::State<double, kPlane, K>;
+  const std::size_t i = block.begin + p;
+  const double least_pressure = settings_.least_pressure;
   State state = model::in_form<K>(particles.state(i));
   model::Mandel<double, kPlane> strain_rate;
-  for (int k = 0; k < kPlane; ++k) strain_rate[k] = particles.strain_rate[static_cast<std::size_t>(k)][i];
+  for (int k = 0; k < kPlane; ++k) strain_rate[k] = block.strain_rate[static_cast<std::size_t>(k)][p];
   const double norm = model::norm_of<double, kPlane>(strain_rate);
-  const Eigen::Vector3d spin(particles.spin[i], 0.0, 0.0);
+  const Eigen::Vector3d spin(block.spin[p], 0.0, 0.0);
 
   integrators::Tolerance tolerance;
-  tolerance.relative = tolerance_;
+  tolerance.relative = settings_.tolerance;
   tolerance.estimate_share = 1.0;  // as for packs
-  tolerance.absolute_stress = kFloorTolerance * least_pressure_;
+  tolerance.absolute_stress = kFloorTolerance * least_pressure;
   tolerance.max_substeps = kMostPointSubsteps;
-  double first_substep = 0.5 * dt;
+  double first_substep = 0.5 * block.dt;
   const double void_ratio_before = state.void_ratio;
-  const auto inside = [this](const State& y) {
-    return model::trace<double, kPlane>(y.stress) / -3.0 >= least_pressure_ && law_.in_domain(y);
+  const auto inside = [&](const State& y) {
+    return model::trace<double, kPlane>(y.stress) / -3.0 >= least_pressure && law_.in_domain(y);
   };
   const auto done = integrators::fellin_ostermann_substeps(
-      state, dt, tolerance, first_substep,
+      state, block.dt, tolerance, first_substep,
       [&](const State& y, model::StateRate<double, kPlane, K>& f) {
         if (!inside(y)) return false;
         f = law_.rate(y, strain_rate, norm);
@@ -239,8 +285,8 @@ bool StressUpdate::substep(Particles& particles, std::size_t i, double dt) const
       },
       inside, [](double) {});
   if (!done) {
-    const double volumetric_strain = model::trace<double, kPlane>(strain_rate) * dt;
-    state = State{model::unit_tensor<double, kPlane>() * -least_pressure_,
+    const double volumetric_strain = model::trace<double, kPlane>(strain_rate) * block.dt;
+    state = State{model::unit_tensor<double, kPlane>() * -least_pressure,
                   (1.0 + void_ratio_before) * std::exp(volumetric_strain) - 1.0};
   }
   store<K>(state, particles, i);

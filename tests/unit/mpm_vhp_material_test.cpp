@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "integrators/fellin_ostermann.hpp"
-#include "mpm/lanes.hpp"
-#include "mpm/stress_update.hpp"
+#include "mpm/materials/vhp.hpp"
+#include "tests/moving_points.hpp"
 #include "tests/seed_mud.hpp"
 
 namespace isotach::mpm {
 namespace {
 
 using model::kPlane;
+using tests::MovingPoints;
+using tests::update;
 using PlaneState = model::State<double, kPlane, model::Fabric::none>;
 using PlaneRate = model::StateRate<double, kPlane, model::Fabric::none>;
 using Vector4 = model::Mandel<double, kPlane>;
@@ -51,12 +53,9 @@ std::vector<Point> random_points(double rate, unsigned seed) {
   return points;
 }
 
-Particles particles_of(const std::vector<Point>& points) {
-  Particles particles;
-  particles.count = points.size();
-  const std::size_t padded = Particles::padded(points.size(), Lanes::kCount);
-  particles.for_each_array([&](std::vector<double>& array) { array.assign(padded, 0.0); });
-  for (std::size_t i = 0; i < padded; ++i) {
+MovingPoints particles_of(const std::vector<Point>& points) {
+  MovingPoints particles(points.size());
+  for (std::size_t i = 0; i < particles.spin.size(); ++i) {
     const Point& point = points[std::min(i, points.size() - 1)];
     for (int k = 0; k < kPlane; ++k) {
       particles.stress[static_cast<std::size_t>(k)][i] = point.state.stress[k];
@@ -109,20 +108,20 @@ PlaneState converged(const model::Law<double>& law, const Point& point, double d
   return state;
 }
 
-class StressUpdateTest : public testing::Test {
+class VhpMaterialTest : public testing::Test {
  protected:
   const model::Law<double> law_{tests::seed_mud()};
-  [[nodiscard]] StressUpdate update(double tolerance) const {
-    return StressUpdate(law_.parameters(), tolerance, kLeastPressure);
+  [[nodiscard]] VhpMaterial mud(double tolerance) const {
+    return VhpMaterial(law_.parameters(), {tolerance, kLeastPressure, 300e3});
   }
 };
 
-TEST_F(StressUpdateTest, EasyStepIsTheMidpointStepOfTheScalarLaw) {
+TEST_F(VhpMaterialTest, EasyStepIsTheMidpointStepOfTheScalarLaw) {
   constexpr double kStep = 1e-5;  // s
   for (unsigned seed = 0; seed < 50; ++seed) {
     const std::vector<Point> points = random_points(0.5, seed);
-    Particles particles = particles_of(points);
-    const StressUpdateCount count = update(kSlumpTolerance).update(particles, kStep);
+    MovingPoints particles = particles_of(points);
+    const MaterialCount count = update(mud(kSlumpTolerance), particles, kStep);
     EXPECT_EQ(count.substepped, 0);
     EXPECT_EQ(count.floored, 0);
     for (std::size_t i = 0; i < kPoints; ++i) {
@@ -137,13 +136,13 @@ TEST_F(StressUpdateTest, EasyStepIsTheMidpointStepOfTheScalarLaw) {
 
 // Every point alike, so that the number of substeps of the pack is that of the point: it follows from the
 // error of one substep, and every pack is as accurate as the scalar law in as many midpoint steps.
-TEST_F(StressUpdateTest, PackSubstepsAreMidpointStepsOfTheScalarLaw) {
+TEST_F(VhpMaterialTest, PackSubstepsAreMidpointStepsOfTheScalarLaw) {
   std::vector<int> seen;
   for (unsigned seed = 0; seed < 60; ++seed) {
     const Point point = random_points(1.0, seed).front();
     const double dt = 1e-3 * (1 + seed % 12);
-    Particles particles = particles_of(std::vector<Point>(kPoints, point));
-    const StressUpdateCount count = update(kSlumpTolerance).update(particles, dt);
+    MovingPoints particles = particles_of(std::vector<Point>(kPoints, point));
+    const MaterialCount count = update(mud(kSlumpTolerance), particles, dt);
     if (count.substepped > 0) continue;
     int matches = 0;
     for (int substeps = 1; substeps <= 24; ++substeps) {
@@ -163,12 +162,11 @@ TEST_F(StressUpdateTest, PackSubstepsAreMidpointStepsOfTheScalarLaw) {
   EXPECT_GE(std::unique(seen.begin(), seen.end()) - seen.begin(), 4) << "too few numbers of substeps to tell";
 }
 
-TEST_F(StressUpdateTest, PackSubstepsMeetTheTolerance) {
+TEST_F(VhpMaterialTest, PackSubstepsMeetTheTolerance) {
   constexpr double kStep = 0.01;
   const std::vector<Point> points = random_points(1.0, 2);
-  Particles one_step = particles_of(points);
-  Particles particles = particles_of(points);
-  EXPECT_EQ(update(kSlumpTolerance).update(particles, kStep).floored, 0);
+  MovingPoints particles = particles_of(points);
+  EXPECT_EQ(update(mud(kSlumpTolerance), particles, kStep).floored, 0);
   double worst_of_one = 0.0;
   for (std::size_t i = 0; i < kPoints; ++i) {
     const PlaneState expected = converged(law_, points[i], kStep);
@@ -181,13 +179,13 @@ TEST_F(StressUpdateTest, PackSubstepsMeetTheTolerance) {
   EXPECT_GT(worst_of_one, 2.0 * kSlumpTolerance) << "the step is too easy to test substeps";
 }
 
-TEST_F(StressUpdateTest, TighterToleranceComesCloser) {
+TEST_F(VhpMaterialTest, TighterToleranceComesCloser) {
   constexpr double kStep = 1e-3;
   const std::vector<Point> points = random_points(1.0, 3);
   std::vector<double> worst;
   for (const double tolerance : {1e-3, 1e-5}) {
-    Particles particles = particles_of(points);
-    update(tolerance).update(particles, kStep);
+    MovingPoints particles = particles_of(points);
+    update(mud(tolerance), particles, kStep);
     worst.push_back(0.0);
     for (std::size_t i = 0; i < kPoints; ++i) {
       const PlaneState expected = converged(law_, points[i], kStep);
@@ -198,12 +196,12 @@ TEST_F(StressUpdateTest, TighterToleranceComesCloser) {
   EXPECT_LT(worst[1], 0.1 * worst[0]);
 }
 
-TEST_F(StressUpdateTest, ViolentPointIsSubsteppedByItselfAndAccurate) {
+TEST_F(VhpMaterialTest, ViolentPointIsSubsteppedByItselfAndAccurate) {
   constexpr double kStep = 1e-3;
   std::vector<Point> points = random_points(0.01, 4);
   points[5].strain_rate *= 3000.0;
-  Particles particles = particles_of(points);
-  const StressUpdateCount count = update(kSlumpTolerance).update(particles, kStep);
+  MovingPoints particles = particles_of(points);
+  const MaterialCount count = update(mud(kSlumpTolerance), particles, kStep);
   EXPECT_EQ(count.substepped, 1);
   EXPECT_EQ(count.floored, 0);
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -214,13 +212,13 @@ TEST_F(StressUpdateTest, ViolentPointIsSubsteppedByItselfAndAccurate) {
 }
 
 // Isotropic unloading at 1 /s over 0.1 s divides p' by exp(0.3/0.0129), about 1e10: contact is lost.
-TEST_F(StressUpdateTest, PointThatLosesContactIsSetToTheLeastPressureAndCounted) {
+TEST_F(VhpMaterialTest, PointThatLosesContactIsSetToTheLeastPressureAndCounted) {
   constexpr double kStep = 0.1;
   std::vector<Point> points = random_points(1e-4, 5);
   points[9].state.stress << -600.0, -600.0, -600.0, 0.0;
   points[9].strain_rate << 1.0, 1.0, 1.0, 0.0;
-  Particles particles = particles_of(points);
-  const StressUpdateCount count = update(kSlumpTolerance).update(particles, kStep);
+  MovingPoints particles = particles_of(points);
+  const MaterialCount count = update(mud(kSlumpTolerance), particles, kStep);
   EXPECT_EQ(count.substepped, 1);
   EXPECT_EQ(count.floored, 1);
   const Vector4 expected(-kLeastPressure, -kLeastPressure, -kLeastPressure, 0.0);
@@ -234,16 +232,16 @@ TEST_F(StressUpdateTest, PointThatLosesContactIsSetToTheLeastPressureAndCounted)
   }
 }
 
-TEST_F(StressUpdateTest, StressFollowsARigidRotation) {
+TEST_F(VhpMaterialTest, StressFollowsARigidRotation) {
   // spin W12 = w turns T by the angle -w t about axis 3; stiffness and viscosity aside (D = 0, OCR large)
   constexpr double kSpin = 0.3;
   constexpr double kStep = 0.5;
   constexpr int kSteps = 50;
   Point point{{{-700.0, -500.0, -600.0, 0.0}, 3.0}, Vector4::Zero(), kSpin};
   std::vector<Point> points(kPoints, point);
-  Particles particles = particles_of(points);
-  const StressUpdate stress_update = update(1e-3);
-  for (int n = 0; n < kSteps; ++n) stress_update.update(particles, kStep / kSteps);
+  MovingPoints particles = particles_of(points);
+  const VhpMaterial material = mud(1e-3);
+  for (int n = 0; n < kSteps; ++n) update(material, particles, kStep / kSteps);
   const double angle = 2.0 * kSpin * kStep;
   EXPECT_NEAR(particles.stress[0][0], -600.0 - 100.0 * std::cos(angle), 1e-3);
   EXPECT_NEAR(particles.stress[1][0], -600.0 + 100.0 * std::cos(angle), 1e-3);

@@ -1,0 +1,431 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "mpm/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace isotach::mpm {
+
+namespace {
+
+constexpr double kLeastNodeMass = 1e-30;     // kg/rad
+constexpr double kQuasiStaticEnergy = 1e-4;  // kinetic energy, scaled, over the energy scale
+constexpr double kInertiaGrowth = 1.002;     // largest growth of the inertia factor in a step
+constexpr double kScattered = 1.5;           // times the stretches of sorted points: worth sorting again
+constexpr std::size_t kFewestPerThread = 4096;
+
+template <class F>
+void with_symmetry(Symmetry symmetry, F&& f) {
+  if (symmetry == Symmetry::axisymmetric) {
+    f.template operator()<Symmetry::axisymmetric>();
+  } else {
+    f.template operator()<Symmetry::plane>();
+  }
+}
+
+}  // namespace
+
+Engine::Engine(Grid grid, const EngineSettings& settings)
+    : settings_(settings), grid_(std::move(grid)), team_(std::make_unique<Team>(settings.threads)) {
+  for (int k = 1; k < team_->size(); ++k) sums_.emplace_back(grid_.stride(), grid_.rows() + 2);
+}
+
+Body& Engine::add(Body body) {
+  Particles& q = body.particles;
+  if (q.count == 0) throw std::invalid_argument("a body needs points");
+  const std::size_t padded = Particles::padded(q.count, kBlock);
+  const bool rotates = !q.omega[0].empty();
+  q.for_each_array([&](std::vector<double>& array) {
+    const bool omega = &array >= q.omega.data() && &array < q.omega.data() + q.omega.size();
+    if (omega && !rotates) return;
+    array.resize(q.count, 0.0);
+    array.resize(padded, array.back());
+  });
+  std::fill(q.mass.begin() + static_cast<std::ptrdiff_t>(q.count), q.mass.end(), 0.0);
+  std::fill(q.solid_volume.begin() + static_cast<std::ptrdiff_t>(q.count), q.solid_volume.end(), 0.0);
+  const auto outside = [this](double r, double z) {
+    return !(r > 0.0 && r < grid_.width() && z > 0.0 && z < grid_.height());
+  };
+  for (std::size_t i = 0; i < q.count; ++i) {
+    if (outside(q.r[i], q.z[i])) throw std::invalid_argument("a point lies outside of the grid");
+  }
+  Field field{CornerField(grid_.stride(), grid_.rows() + 2), {}, {}, 0};
+  for (int k = 1; k < team_->size(); ++k) {
+    field.pressures.emplace_back(grid_.stride(), grid_.rows() + 2);
+    field.rates.emplace_back(grid_.stride(), grid_.rows() + 2);
+  }
+  fields_.push_back(std::move(field));
+  bodies_.push_back(std::move(body));
+  return bodies_.back();
+}
+
+std::pair<std::size_t, std::size_t> Engine::share(const Particles& q, int k) const {
+  const std::size_t blocks = (q.count + kBlock - 1) / kBlock;
+  const auto threads =
+      std::clamp<std::size_t>(q.count / kFewestPerThread, 1, static_cast<std::size_t>(team_->size()));
+  const std::size_t t = std::min(static_cast<std::size_t>(k), threads);
+  const std::size_t next = std::min(t + 1, threads);
+  return {std::min(q.count, blocks * t / threads * kBlock),
+          std::min(q.count, blocks * next / threads * kBlock)};
+}
+
+namespace {
+
+std::size_t cell_of(const Grid& grid, const Particles& q, std::size_t i) {
+  const double inverse_h = 1.0 / grid.cell_size();
+  return grid.index(static_cast<std::size_t>(q.r[i] * inverse_h),
+                    static_cast<std::size_t>(q.z[i] * inverse_h));
+}
+
+std::size_t count_stretches(const Grid& grid, const Particles& q) {
+  std::size_t stretches = 0;
+  std::size_t last = std::size_t(-1);
+  for (std::size_t i = 0; i < q.count; ++i) {
+    const std::size_t cell = cell_of(grid, q, i);
+    stretches += cell != last ? 1U : 0U;
+    last = cell;
+  }
+  return stretches;
+}
+
+}  // namespace
+
+/// Points of a cell side by side, cells in rows; points of a cell keep their order.
+void Engine::sort(Body& body) {
+  Particles& q = body.particles;
+  std::vector<std::size_t> starts(grid_.stride() * (grid_.rows() + 2) + 1, 0);
+  std::vector<std::size_t> cells(q.count);
+  for (std::size_t i = 0; i < q.count; ++i) {
+    cells[i] = cell_of(grid_, q, i);
+    ++starts[cells[i] + 1];
+  }
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::size_t> from(q.count);
+  for (std::size_t i = 0; i < q.count; ++i) from[starts[cells[i]]++] = i;
+  std::vector<double> sorted(q.count);
+  q.for_each_array([&](std::vector<double>& array) {
+    if (array.empty()) return;
+    for (std::size_t i = 0; i < q.count; ++i) sorted[i] = array[from[i]];
+    std::copy(sorted.begin(), sorted.end(), array.begin());
+  });
+}
+
+// The order of points changes what sums round to, so it may depend on nothing but the points and the step.
+void Engine::sort_if_scattered() {
+  constexpr long kStepsBetweenLooks = 32;
+  if (steps_ % kStepsBetweenLooks != 0) return;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const auto limit = static_cast<std::size_t>(kScattered * static_cast<double>(fields_[b].stretches));
+    if (count_stretches(grid_, bodies_[b].particles) <= limit) continue;
+    sort(bodies_[b]);
+    fields_[b].stretches = count_stretches(grid_, bodies_[b].particles);
+  }
+}
+
+void Engine::start() {
+  started_ = true;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
+    sort(body);
+    fields_[b].stretches = count_stretches(grid_, body.particles);
+    for (std::size_t i = 0; i < body.particles.count; ++i) {
+      count_.stiffest = std::max(count_.stiffest, body.material->wave_modulus(body.particles, i));
+    }
+    if (!body.averaged) continue;
+    CornerField& corners = fields_[b].corners;
+    push_pressure(body.particles, 0, body.particles.count, grid_, *body.material, corners.pressures);
+    corners.average_pressure();
+  }
+}
+
+// Explicit limits: no wave may cross a cell in a step, and momentum may not diffuse across one.
+double Engine::time_step() {
+  const double h = grid_.cell_size();
+  double least = HUGE_VAL;
+  for (const Body& body : bodies_) {
+    const double density = body.density * inertia_;
+    const double wave_speed = std::sqrt(count_.stiffest / density);
+    least = std::min(least, settings_.courant * h / (wave_speed + fastest_));
+    if (body.artificial_viscosity > 0.0) {
+      least = std::min(least, 0.25 * h * h * density / body.artificial_viscosity);
+    }
+  }
+  count_.stiffest = 0.0;
+  return least;
+}
+
+void Engine::push(double dt) {
+  grid_.sums().clear();
+  for (NodeSums& sums : sums_) sums.clear();
+  // inertia that grows must not add kinetic energy: velocities shrink so that it stays
+  const double scale = std::sqrt(inertia_ / next_inertia_);
+  inertia_ = next_inertia_;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = bodies_[b];
+    PushSettings settings;
+    settings.time = time_;
+    settings.dt = dt;
+    settings.gravity = settings_.gravity;
+    settings.two_eta = 2.0 * body.artificial_viscosity;
+    settings.velocity_scale = scale;
+    settings.mean = body.averaged ? fields_[b].corners.mean.data() : nullptr;
+    settings.material = body.material.get();
+    settings.forces = &forces_;
+    with_symmetry(settings_.symmetry, [&]<Symmetry S>() {
+      team_->run([&](int k) {
+        const auto [begin, end] = share(body.particles, k);
+        NodeSums& sums = k == 0 ? grid_.sums() : sums_[static_cast<std::size_t>(k - 1)];
+        push_to_nodes<S>(body.particles, begin, end, grid_, settings, sums);
+      });
+    });
+  }
+  velocity_scale_ = scale;
+  if (!sums_.empty()) {
+    team_->run([&](int k) {
+      const std::size_t rows = grid_.rows() + 2;
+      const auto size = static_cast<std::size_t>(team_->size());
+      const std::size_t first = rows * static_cast<std::size_t>(k) / size;
+      const std::size_t last = rows * static_cast<std::size_t>(k + 1) / size;
+      for (const NodeSums& sums : sums_) grid_.sums().add(sums, first, last);
+    });
+  }
+}
+
+void Engine::advance_row(std::size_t j, double dt, double& internal_work, double& applied_work,
+                         double& kinetic) {
+  const Octet* nodes = grid_.sums().data();
+  NodeVelocity* velocities = grid_.velocities();
+  const double inverse_inertia = 1.0 / inertia_;
+  const std::size_t end = grid_.sums().end(j);
+  for (std::size_t i = 0; i < end; ++i) {
+    const std::size_t n = grid_.index(i, j);
+    const Octet& node = nodes[n];
+    if (node[kMass] <= kLeastNodeMass) {
+      velocities[n] = NodeVelocity{};
+      continue;
+    }
+    const double inverse_mass = 1.0 / node[kMass];
+    const double before_r = node[kMomentumR] * inverse_mass;
+    const double before_z = node[kMomentumZ] * inverse_mass;
+    const double impulse = dt * inverse_mass * inverse_inertia;
+    const double change_r = (node[kInternalR] + node[kAppliedR]) * impulse;
+    const double change_z = (node[kInternalZ] + node[kAppliedZ]) * impulse;
+    const double path_r = (before_r + 0.5 * change_r) * dt;
+    const double path_z = (before_z + 0.5 * change_z) * dt;
+    internal_work += node[kInternalR] * path_r + node[kInternalZ] * path_z;
+    applied_work += node[kAppliedR] * path_r + (node[kAppliedZ] + node[kMass] * settings_.gravity) * path_z;
+    const double after_r = before_r + change_r;
+    const double after_z = before_z + change_z;
+    kinetic += 0.5 * node[kMass] * (after_r * after_r + after_z * after_z);
+    velocities[n] = NodeVelocity{after_r, after_z, before_r, before_z};
+  }
+}
+
+// A base that yields to shear. Along it the nodes above and below (their images) move by themselves, and the
+// base's shear force acts on the point between them, half on each; across it nothing moves. A force that
+// holds the base's point leaves the nodes above what folding leaves them: the base without slip. The sums
+// must not have been folded.
+void Engine::slide(double dt) {
+  const double h = grid_.cell_size();
+  const Octet* nodes = grid_.sums().data();
+  slip_.assign(grid_.stride(), {});
+  for (std::size_t i = 0; i < grid_.sums().end(0); ++i) {
+    const Octet& below = nodes[grid_.index(i, 0)];
+    const Octet& above = nodes[grid_.index(i, 1)];
+    if (below[kMass] <= kLeastNodeMass) continue;  // nothing touches the base here
+    Slip& slip = slip_[i];
+    slip.touches = true;
+    slip.before_below = below[kMomentumR] / below[kMass];
+    slip.before_above = above[kMomentumR] / above[kMass];
+    const double ease_below = dt / (below[kMass] * inertia_);  // velocity for a force
+    const double ease_above = dt / (above[kMass] * inertia_);
+    const double free_below = slip.before_below + ease_below * (below[kInternalR] + below[kAppliedR]);
+    const double free_above = slip.before_above + ease_above * (above[kInternalR] + above[kAppliedR]);
+    const double ease = 0.25 * (ease_below + ease_above);
+    double shear = 0.0;
+    if (base_.slip_length > 0.0) {
+      const double cells = base_.slip_length / h;
+      const double ease_of_condition = ease - cells * 0.5 * (ease_above - ease_below);
+      // the force that makes the base's velocity `cells` times what the nodes differ by.
+      const auto holding = [&](double of_below, double of_above) {
+        return (cells * (of_above - of_below) - 0.5 * (of_below + of_above)) / ease_of_condition;
+      };
+      shear = holding(free_below, free_above);
+      // as folding does, the condition is imposed on the velocities before the step too
+      const double before = holding(slip.before_below, slip.before_above);
+      shear -= before;
+      slip.before_below += 0.5 * before * ease_below;
+      slip.before_above += 0.5 * before * ease_above;
+    } else {
+      const double r = settings_.symmetry == Symmetry::axisymmetric
+                           ? std::max(0.5 * h, (static_cast<double>(i) - 0.5) * h)
+                           : 1.0;
+      const double area = std::min(r * h, (below[kVolume] + above[kVolume]) / h);
+      const double pressing =
+          std::max(0.0, -(below[kInternalZ] + below[kAppliedZ] + above[kInternalZ] + above[kAppliedZ]));
+      const double limit = base_.adhesion * area + base_.friction * pressing;
+      const double sticking = -0.5 * (free_below + free_above) / ease;
+      if (std::abs(sticking) <= limit) {  // the base without slip
+        slip.touches = false;
+        continue;
+      }
+      shear = std::copysign(limit, sticking);
+    }
+    const double start_below = free_below + (slip.before_below - below[kMomentumR] / below[kMass]);
+    const double start_above = free_above + (slip.before_above - above[kMomentumR] / above[kMass]);
+    slip.below = start_below + 0.5 * shear * ease_below;
+    slip.above = start_above + 0.5 * shear * ease_above;
+    const double path_below = 0.5 * (slip.before_below + slip.below) * dt;
+    const double path_above = 0.5 * (slip.before_above + slip.above) * dt;
+    internal_work_ += below[kInternalR] * path_below + above[kInternalR] * path_above;
+    applied_work_ += below[kAppliedR] * path_below + above[kAppliedR] * path_above +
+                     0.5 * shear * (path_below + path_above);
+    kinetic_ += 0.5 * (below[kMass] * slip.below * slip.below + above[kMass] * slip.above * slip.above);
+  }
+}
+
+void Engine::advance_nodes(double dt) {
+  kinetic_ = 0.0;
+  grid_.fold_columns();
+  const bool slides = grid_.sides().bottom == Side::fixed && base_.yields();
+  if (slides) slide(dt);
+  grid_.fold_rows();
+  if (slides) {  // what moves along the base is known
+    for (std::size_t i = 0; i < grid_.sums().end(0); ++i) {
+      if (!slip_[i].touches) continue;
+      Octet& node = grid_.sums().data()[grid_.index(i, 1)];
+      node[kMomentumR] = node[kInternalR] = node[kAppliedR] = 0.0;
+    }
+  }
+  const std::size_t first = grid_.sides().bottom == Side::open ? 0 : 1;
+  const std::size_t last = grid_.sides().top == Side::open ? grid_.rows() + 2 : grid_.rows() + 1;
+  for (std::size_t j = first; j < last; ++j) advance_row(j, dt, internal_work_, applied_work_, kinetic_);
+  grid_.mirror_velocities();
+  if (!slides) return;
+  for (std::size_t i = 0; i < grid_.sums().end(0); ++i) {
+    const Slip& slip = slip_[i];
+    if (!slip.touches) continue;
+    NodeVelocity& below = grid_.velocities()[grid_.index(i, 0)];
+    NodeVelocity& above = grid_.velocities()[grid_.index(i, 1)];
+    below = NodeVelocity{slip.below, below[1], slip.before_below, below[3]};
+    above = NodeVelocity{slip.above, above[1], slip.before_above, above[3]};
+  }
+}
+
+std::optional<EngineFailure> Engine::pull(double dt) {
+  PullSettings settings;
+  settings.dt = dt;
+  settings.velocity_scale = velocity_scale_;
+  settings.keep_velocity = std::max(0.0, 1.0 - dt / (settings_.residual_time * std::sqrt(inertia_)));
+  settings.keep_gradient = settings.keep_velocity;
+  fastest_ = 0.0;
+  std::optional<EngineFailure> failure;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
+    Field& field = fields_[b];
+    field.corners.rates.clear();
+    for (auto& rates : field.rates) rates.clear();
+    std::vector<PullResult> results(static_cast<std::size_t>(team_->size()));
+    with_symmetry(settings_.symmetry, [&]<Symmetry S>() {
+      team_->run([&](int k) {
+        const auto [begin, end] = share(body.particles, k);
+        auto& rates = k == 0 ? field.corners.rates : field.rates[static_cast<std::size_t>(k - 1)];
+        results[static_cast<std::size_t>(k)] =
+            pull_from_nodes<S>(body.particles, begin, end, grid_, settings, body.averaged ? &rates : nullptr);
+      });
+    });
+    for (const PullResult& result : results) {
+      fastest_ = std::max(fastest_, result.fastest);
+      if (!result.leaving || failure) continue;
+      const Particles& q = body.particles;
+      const std::size_t i = *result.leaving;
+      const bool finite =
+          std::isfinite(q.velocity_r[i] + q.velocity_z[i] + q.grid_velocity_r[i] + q.grid_velocity_z[i]);
+      failure = EngineFailure{
+          finite ? EngineFailure::Kind::left_grid : EngineFailure::Kind::not_finite, time_, q.r[i], q.z[i],
+          fmt::format("{} at t = {:.6g} s, r = {:.3f} mm, z = {:.3f} mm (step {})",
+                      finite ? "a material point leaves the grid" : "a velocity is not finite", time_,
+                      q.r[i] * 1e3, q.z[i] * 1e3, steps_)};
+    }
+    if (!body.averaged) continue;
+    for (const auto& rates : field.rates) field.corners.rates.add(rates, 0, rates.rows());
+    field.corners.average_rate();
+  }
+  return failure;
+}
+
+void Engine::update(double dt) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
+    Field& field = fields_[b];
+    field.corners.pressures.clear();
+    for (auto& pressures : field.pressures) pressures.clear();
+    std::vector<MaterialCount> counts(static_cast<std::size_t>(team_->size()));
+    const double* mean_rate = body.averaged ? field.corners.mean.data() : nullptr;
+    with_symmetry(settings_.symmetry, [&]<Symmetry S>() {
+      team_->run([&](int k) {
+        const auto [begin, end] = share(body.particles, k);
+        auto& pressures = k == 0 ? field.corners.pressures : field.pressures[static_cast<std::size_t>(k - 1)];
+        update_points<S>(body.particles, begin, end, grid_, dt, mean_rate, *body.material,
+                         body.averaged ? &pressures : nullptr, counts[static_cast<std::size_t>(k)]);
+      });
+    });
+    for (const MaterialCount& count : counts) count_ += count;
+    if (!body.averaged) continue;
+    for (const auto& pressures : field.pressures) field.corners.pressures.add(pressures, 0, pressures.rows());
+    field.corners.average_pressure();
+  }
+}
+
+std::optional<EngineFailure> Engine::step(double until) {
+  if (!started_) start();
+  sort_if_scattered();
+  const double dt = std::min(time_step(), until - time_);
+  push(dt);
+  advance_nodes(dt);
+  if (auto failure = pull(dt)) return failure;
+  update(dt);
+  ++steps_;
+  last_dt_ = dt;
+  time_ = dt < until - time_ ? time_ + dt : until;
+  if (settings_.inertia_scaling > 1.0) adapt_inertia();
+  return std::nullopt;
+}
+
+// Larger inertia permits longer steps. It may grow while the kinetic energy it makes stays far below the
+// energy that drives the flow, so that inertia keeps having no say in the motion.
+void Engine::adapt_inertia() {
+  const double allowed = kQuasiStaticEnergy * settings_.energy_scale / std::max(kinetic_, 1e-30);
+  const double wanted = std::clamp(allowed, 1.0, settings_.inertia_scaling);
+  next_inertia_ = std::min(wanted, inertia_ * kInertiaGrowth);
+  if (next_inertia_ < inertia_) inertia_ = next_inertia_;
+}
+
+Energies Engine::energies() const {
+  Energies e;
+  for (const Body& body : bodies_) {
+    const Particles& q = body.particles;
+    for (std::size_t i = 0; i < q.count; ++i) {
+      const double speed2 = q.velocity_r[i] * q.velocity_r[i] + q.velocity_z[i] * q.velocity_z[i];
+      e.kinetic += 0.5 * inertia_ * q.mass[i] * speed2;
+      e.potential += q.mass[i] * settings_.gravity * q.z[i];
+    }
+  }
+  e.stress_work = -internal_work_;
+  e.boundary_work = -applied_work_;
+  return e;
+}
+
+double Engine::total_pressure(std::size_t body, std::size_t i) const {
+  const Particles& q = bodies_[body].particles;
+  if (bodies_[body].averaged) return at_point(grid_, fields_[body].corners.mean, q.r[i], q.z[i]);
+  double pressure = 0.0;
+  bodies_[body].material->total_pressure(q, i, 1, &pressure);
+  return pressure;
+}
+
+}  // namespace isotach::mpm

@@ -1,0 +1,54 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// Undrained mud: the VHP law in effective stress, and pore water as a bulk modulus.
+#pragma once
+
+#include <cstddef>
+
+#include "integrators/fellin_ostermann.hpp"
+#include "mpm/material.hpp"
+
+namespace isotach::mpm {
+
+/// Midpoint steps (Fellin-Ostermann's accepted solution) for packs of points: one, or as many equal substeps
+/// as the pack's worst error estimate asks for. A point that still exceeds the tolerance is done again by
+/// itself with adaptive substeps.
+///
+/// A point whose mean effective pressure would fall below `least_pressure` leaves the law's domain (the
+/// skeleton loses contact); it is set to the isotropic stress of that pressure, Omega to zero, and counted.
+///
+/// The pore pressure is a function of the void ratio, u = reference_pressure - K_w ln e, from
+/// du/dt = -(K_w/n) tr D, so that volume, void ratio and pressure cannot drift apart.
+class VhpMaterial final : public Material {
+ public:
+  struct Settings {
+    double tolerance = 3e-3;            ///< on EST relative to |T|, 1+e and 1+|Omega|, > 0
+    double least_pressure = 1.0;        ///< Pa, > 0
+    double water_bulk_modulus = 300e3;  ///< K_w (Pa), > 0
+  };
+  VhpMaterial(const model::Parameters<double>& parameters, const Settings& settings);
+
+  void update(Particles& particles, MaterialBlock& block, MaterialCount& count) const override;
+  void total_pressure(const Particles& particles, std::size_t begin, std::size_t count,
+                      double* pressures) const override;
+  [[nodiscard]] double wave_modulus(const Particles& particles, std::size_t i) const override;
+
+  /// reference_pressure of a point whose pore pressure is u (Pa) at void ratio e.
+  [[nodiscard]] double reference_pressure(double pore_pressure, double void_ratio) const;
+  /// u of point i (Pa).
+  [[nodiscard]] double pore_pressure(const Particles& particles, std::size_t i) const;
+  [[nodiscard]] const model::Law<double>& law() const { return law_; }
+
+ private:
+  template <model::Fabric K>
+  void update_form(Particles& particles, MaterialBlock& block, MaterialCount& count) const;
+  /// Updates the block's point p by substeps. Returns false where it ended at the least pressure.
+  template <model::Fabric K>
+  bool substep(Particles& particles, const MaterialBlock& block, std::size_t p) const;
+  [[nodiscard]] double modulus(double pressure, double void_ratio) const;
+
+  model::Law<double> law_;
+  Settings settings_;
+  double skeleton_factor_;  ///< plane wave modulus of the skeleton over p'
+};
+
+}  // namespace isotach::mpm
