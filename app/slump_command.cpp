@@ -2,6 +2,8 @@
 // isotach slump: one simulated slump test.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
 #include "datasets/slump_file.hpp"
@@ -24,11 +26,19 @@ int slump(const CommonOptions& options) {
   mpm::RunOptions run_options;
   run_options.snapshots = true;
   run_options.stop = &interrupted();
-  run_options.progress = [&](double time) {
-    progress.update(time / test.setup.times.back(), fmt::format("t = {:.3f} s", time));
+  run_options.progress = [&](double time, double done) {
+    progress.update(done, fmt::format("t = {:.3f} s", time));
   };
-  const auto result = mpm::run_slump(test.material, test.setup, run_options);
+  run_options.checkpoint = options.out;
+  run_options.checkpoint += ".checkpoint";
+  mpm::SlumpSetup setup = test.setup;
+  setup.numerics.threads = options.threads;
+  const auto result = mpm::run_slump(test.material, setup, run_options);
   if (!result) {
+    if (!options.quiet && std::filesystem::exists(run_options.checkpoint)) {
+      fmt::print(stderr, "isotach: the run can go on from t = {:.3f} s: give the same command again\n",
+                 result.error().time);
+    }
     return end_failed(output, reports::failure_json(run.info(), result.error()), result.error().message,
                       result.error().kind == mpm::SlumpFailure::Kind::interrupted);
   }

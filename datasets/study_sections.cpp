@@ -112,8 +112,8 @@ mpm::Numerics read_numerics(TomlTable& root) {
   result.tolerance = numerics->number_if("tolerance", Range::positive(0.1)).value_or(result.tolerance);
   result.inertia_scaling =
       numerics->number_if("inertia_scaling", {1.0, 1e6}).value_or(result.inertia_scaling);
-  result.artificial_viscosity =
-      numerics->number_if("artificial_viscosity", {0.0, 0.2}).value_or(result.artificial_viscosity);
+  result.background_viscosity =
+      numerics->number_if("background_viscosity_Pa_s", {0.0, 1000.0}).value_or(result.background_viscosity);
   numerics->reject_unknown_keys();
   return result;
 }

@@ -29,10 +29,7 @@ void with_symmetry(Symmetry symmetry, F&& f) {
 
 }  // namespace
 
-Engine::Engine(Grid grid, const EngineSettings& settings)
-    : settings_(settings), grid_(std::move(grid)), team_(std::make_unique<Team>(settings.threads)) {
-  for (int k = 1; k < team_->size(); ++k) sums_.emplace_back(grid_.stride(), grid_.rows() + 2);
-}
+Engine::Engine(Grid grid, const EngineSettings& settings) : settings_(settings), grid_(std::move(grid)) {}
 
 Body& Engine::add(Body body) {
   Particles& q = body.particles;
@@ -53,12 +50,7 @@ Body& Engine::add(Body body) {
   for (std::size_t i = 0; i < q.count; ++i) {
     if (outside(q.r[i], q.z[i])) throw std::invalid_argument("a point lies outside of the grid");
   }
-  Field field{CornerField(grid_.stride(), grid_.rows() + 2), {}, {}, 0};
-  for (int k = 1; k < team_->size(); ++k) {
-    field.pressures.emplace_back(grid_.stride(), grid_.rows() + 2);
-    field.rates.emplace_back(grid_.stride(), grid_.rows() + 2);
-  }
-  fields_.push_back(std::move(field));
+  fields_.push_back(Field{CornerField(grid_.stride(), grid_.rows() + 2), {}, {}, 0});
   bodies_.push_back(std::move(body));
   return bodies_.back();
 }
@@ -126,6 +118,21 @@ void Engine::sort_if_scattered() {
   }
 }
 
+/// As many threads as have enough to do.
+void Engine::gather_team() {
+  std::size_t most = 1;
+  for (const Body& body : bodies_) most = std::max(most, body.particles.count / kFewestPerThread);
+  team_ = std::make_unique<Team>(static_cast<int>(
+      std::min<std::size_t>(static_cast<std::size_t>(std::max(1, settings_.threads)), most)));
+  for (int k = 1; k < team_->size(); ++k) {
+    sums_.emplace_back(grid_.stride(), grid_.rows() + 2);
+    for (Field& field : fields_) {
+      field.pressures.emplace_back(grid_.stride(), grid_.rows() + 2);
+      field.rates.emplace_back(grid_.stride(), grid_.rows() + 2);
+    }
+  }
+}
+
 void Engine::start() {
   started_ = true;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -150,8 +157,8 @@ double Engine::time_step() {
     const double density = body.density * inertia_;
     const double wave_speed = std::sqrt(count_.stiffest / density);
     least = std::min(least, settings_.courant * h / (wave_speed + fastest_));
-    if (body.artificial_viscosity > 0.0) {
-      least = std::min(least, 0.25 * h * h * density / body.artificial_viscosity);
+    if (body.viscosity > 0.0) {
+      least = std::min(least, 0.25 * h * h * density / body.viscosity);
     }
   }
   count_.stiffest = 0.0;
@@ -170,7 +177,7 @@ void Engine::push(double dt) {
     settings.time = time_;
     settings.dt = dt;
     settings.gravity = settings_.gravity;
-    settings.two_eta = 2.0 * body.artificial_viscosity;
+    settings.two_eta = 2.0 * body.viscosity;
     settings.velocity_scale = scale;
     settings.mean = body.averaged ? fields_[b].corners.mean.data() : nullptr;
     settings.material = body.material.get();
@@ -382,6 +389,7 @@ void Engine::update(double dt) {
 }
 
 std::optional<EngineFailure> Engine::step(double until) {
+  if (!team_) gather_team();
   if (!started_) start();
   sort_if_scattered();
   const double dt = std::min(time_step(), until - time_);

@@ -18,9 +18,9 @@ namespace isotach::mpm {
 struct Body {
   Particles particles;
   std::unique_ptr<const Material> material;
-  double density = 0.0;               ///< kg/m3, the least; sets the wave speed
-  double artificial_viscosity = 0.0;  ///< Pa s
-  bool averaged = true;               ///< tr D and mean stress are averaged over cells
+  double density = 0.0;    ///< kg/m3, the least; sets the wave speed
+  double viscosity = 0.0;  ///< eta of a stress 2 eta D* beside the material's (Pa s), >= 0
+  bool averaged = true;    ///< tr D and mean stress are averaged over cells
 };
 
 struct EngineSettings {
@@ -80,6 +80,25 @@ class Engine {
   [[nodiscard]] double inertia() const { return inertia_; }
   [[nodiscard]] double last_step() const { return last_dt_; }
   [[nodiscard]] Energies energies() const;
+  /// Saves or loads everything that steps change; bodies, forces and base are those the engine was made with.
+  template <class Archive>
+  void visit(Archive& archive) {
+    for (Body& body : bodies_) archive(body.particles);
+    for (Field& field : fields_) {
+      archive(field.corners);
+      archive(field.stretches);
+    }
+    archive(started_);
+    archive(time_);
+    archive(steps_);
+    archive(count_);
+    archive(fastest_);
+    archive(last_dt_);
+    archive(inertia_);
+    archive(next_inertia_);
+    archive(internal_work_);
+    archive(applied_work_);
+  }
   /// Averaged total pressure of a body's point (Pa): the one that acts.
   [[nodiscard]] double total_pressure(std::size_t body, std::size_t i) const;
 
@@ -101,6 +120,7 @@ class Engine {
   };
 
   [[nodiscard]] double time_step();
+  void gather_team();
   void start();
   void sort_if_scattered();
   void sort(Body& body);

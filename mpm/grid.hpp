@@ -61,6 +61,11 @@ class RowSums {
       ends_[row] = 0;
     }
   }
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(values_);
+    archive(ends_);
+  }
   /// Adds another's sums of the rows first .. last - 1.
   void add(const RowSums& other, std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {

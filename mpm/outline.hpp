@@ -19,6 +19,12 @@ struct Outline {
   double time;                       ///< s
   std::vector<OutlinePoint> points;  ///< ordered from the toe (z = 0) to the axis (r = 0)
 
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(time);
+    archive(points);
+  }
+
   /// Height of the highest point (m).
   [[nodiscard]] double height() const;
   /// Largest radius (m).

@@ -48,6 +48,12 @@ struct Particles {
     for (auto& a : omega) f(a);
   }
 
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(count);
+    for_each_array([&archive](std::vector<double>& array) { archive(array); });
+  }
+
   [[nodiscard]] double volume(std::size_t i) const { return solid_volume[i] * (1.0 + void_ratio[i]); }
   /// p' = -tr T/3 (Pa).
   [[nodiscard]] double mean_effective_pressure(std::size_t i) const {

@@ -1,8 +1,12 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "mpm/slump.hpp"
 
+#include <chrono>
 #include <cmath>
+#include <system_error>
 
+#include "mpm/archive.hpp"
+#include "mpm/checkpoint.hpp"
 #include "mpm/slump_run.hpp"
 
 namespace isotach::mpm {
@@ -30,6 +34,58 @@ double energy(const HistoryRow& row) {
   return row.kinetic + row.potential + row.stress_work + row.boundary_work;
 }
 
+/// Keeps a run's state on disk, now and then.
+class Keeper {
+ public:
+  Keeper(const model::Parameters<double>& parameters, const SlumpSetup& setup, const RunOptions& options)
+      : file_(options.checkpoint),
+        interval_(options.checkpoint_interval),
+        key_(run_key(parameters, setup, options.history, options.snapshots)) {}
+
+  /// Goes on from what is on disk. Returns whether there was something.
+  [[nodiscard]] bool resume(SlumpRun& run, SlumpResult& result, std::size_t& target) const {
+    if (file_.empty()) return false;
+    const auto state = read_checkpoint(file_, key_);
+    if (!state) return false;
+    Archive archive(*state);
+    visit(archive, run, result, target);
+    return archive.complete();
+  }
+  /// A state to come back to; goes to disk if that is due.
+  void remember(SlumpRun& run, SlumpResult& result, std::size_t target) {
+    if (file_.empty()) return;
+    Archive archive;
+    visit(archive, run, result, target);
+    good_ = archive.bytes();
+    const auto now = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(now - last_).count() < interval_) return;
+    last_ = now;
+    write();
+  }
+  /// Puts the state remembered last on disk. A run that cannot is still a run.
+  void write() const {
+    if (!file_.empty() && !good_.empty()) static_cast<void>(write_checkpoint(file_, key_, good_));
+  }
+  /// The run is over.
+  void drop() const {
+    std::error_code error;
+    if (!file_.empty()) std::filesystem::remove(file_, error);
+  }
+
+ private:
+  static void visit(Archive& archive, SlumpRun& run, SlumpResult& result, std::size_t& target) {
+    archive(run);
+    archive(result);
+    archive(target);
+  }
+
+  std::filesystem::path file_;
+  double interval_;
+  std::uint64_t key_;
+  std::string good_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double>& parameters,
@@ -41,18 +97,29 @@ tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double
   result.points = run.particles().count;
   const HistoryRow start = run.history_row();
   const double outline_volume_0 = run.outline().volume();
-  result.history.push_back(start);
+  const std::vector<double> targets = options.history ? history_times(setup.times) : setup.times;
+  Keeper keeper(parameters, setup, options);
+  std::size_t next = 0;
+  if (!keeper.resume(run, result, next)) result.history.push_back(start);
 
-  std::size_t next_output = 0;
-  for (const double target : (options.history ? history_times(setup.times) : setup.times)) {
+  for (; next < targets.size(); ++next) {
+    const double target = targets[next];
     while (run.time() < target) {
-      if (auto failure = run.step(target)) return tl::unexpected(*failure);
-      if (run.steps() % kStepsBetweenChecks == 0) {
-        if (options.stop != nullptr && options.stop->load()) {
-          return tl::unexpected(
-              SlumpFailure{SlumpFailure::Kind::interrupted, run.time(), 0.0, 0.0, "the run was interrupted"});
-        }
-        if (options.progress) options.progress(run.time());
+      if (auto failure = run.step(target)) {
+        keeper.write();
+        return tl::unexpected(*failure);
+      }
+      if (run.steps() % kStepsBetweenChecks != 0) continue;
+      keeper.remember(run, result, next);
+      if (options.stop != nullptr && options.stop->load()) {
+        keeper.write();
+        return tl::unexpected(
+            SlumpFailure{SlumpFailure::Kind::interrupted, run.time(), 0.0, 0.0, "the run was interrupted"});
+      }
+      if (options.progress) {
+        const double left = (targets.back() - run.time()) / run.last_step();
+        options.progress(run.time(),
+                         static_cast<double>(run.steps()) / (static_cast<double>(run.steps()) + left));
       }
     }
     result.history.push_back(run.history_row());
@@ -60,7 +127,8 @@ tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double
     result.volume_error = std::max(result.volume_error, std::abs(row.volume / start.volume - 1.0));
     result.energy_error =
         std::max(result.energy_error, std::abs(energy(row) - energy(start)) / start.potential);
-    if (next_output < setup.times.size() && target == setup.times[next_output]) {
+    const std::size_t output = result.outlines.size();
+    if (output < setup.times.size() && target == setup.times[output]) {
       result.outlines.push_back(run.outline());
       const Outline& outline = result.outlines.back();
       if (outline.points.size() < 3) {
@@ -70,9 +138,9 @@ tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double
       result.outline_volume_error =
           std::max(result.outline_volume_error, std::abs(outline.volume() / outline_volume_0 - 1.0));
       if (options.snapshots) result.snapshots.push_back(run.snapshot());
-      ++next_output;
     }
   }
+  keeper.drop();
   result.steps = run.steps();
   result.particle_steps = static_cast<double>(run.steps()) * static_cast<double>(result.points);
   result.substepped = run.substepped();

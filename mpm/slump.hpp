@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <tl/expected.hpp>
@@ -36,6 +37,15 @@ struct Snapshot {
   std::vector<double> pore_pressure;            ///< Pa, compression positive
   std::vector<double> overconsolidation_ratio;  ///< -
   std::vector<double> strain_rate_norm;  ///< |D| of the last step (1/s), its mean part as the grid has it
+
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(time);
+    archive(particles);
+    archive(pore_pressure);
+    archive(overconsolidation_ratio);
+    archive(strain_rate_norm);
+  }
 };
 
 /// State the mud starts from.
@@ -62,6 +72,17 @@ struct SlumpResult {
   double particle_steps = 0.0;
   long substepped = 0;  ///< point updates that needed substeps
   long floored = 0;     ///< point updates that left the law's domain and were set to the least pressure
+
+  /// What grows during a run.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(outlines);
+    archive(snapshots);
+    archive(history);
+    archive(volume_error);
+    archive(outline_volume_error);
+    archive(energy_error);
+  }
 };
 
 struct SlumpFailure {
@@ -76,8 +97,13 @@ struct SlumpFailure {
 struct RunOptions {
   bool snapshots = false;
   bool history = true;  ///< rows between the output times as well
-  /// Called now and then with the time reached (s).
-  std::function<void(double)> progress;
+  /// Called now and then with the time reached (s) and the part of the work that is done, judged by the steps
+  /// that are left at the length they have.
+  std::function<void(double time, double done)> progress;
+  /// Where the run's state is kept while it lasts, and gone on from where it is found; not at all where
+  /// empty.
+  std::filesystem::path checkpoint;
+  double checkpoint_interval = 30.0;  ///< s of wall time between two
   /// The run ends with Kind::interrupted soon after this becomes true.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -90,8 +116,8 @@ struct RunOptions {
 [[nodiscard]] double void_ratio_from_strength(const model::Parameters<double>& parameters,
                                               double undrained_strength, double strength_rate);
 
-/// Checks the setup and runs it to the last output time. Single-threaded; the same input gives the same
-/// bytes.
+/// Runs the setup to the last output time. The same input gives the same bytes at the same number of threads,
+/// also where the run was interrupted and went on from its checkpoint.
 [[nodiscard]] tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double>& parameters,
                                                                 const SlumpSetup& setup,
                                                                 const RunOptions& options = {});

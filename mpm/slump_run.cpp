@@ -96,7 +96,7 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
   body.particles = fill_mould(setup, initial_, *mud, width, height);
   body.material = std::move(mud);
   body.density = initial_.density;
-  body.artificial_viscosity = setup.numerics.artificial_viscosity * h * impedance;
+  body.viscosity = setup.numerics.background_viscosity;
   engine_.add(std::move(body));
   MouldContact::Constants wall{width, kWallStiffness * bulk / h, kWallDamping * impedance};
   wall.initial_pressure_shift =

@@ -13,9 +13,7 @@ namespace isotach::mpm {
 /// The engine (engine.hpp) with what a slump test needs: mud that fills the mould at rest, in undrained
 /// conditions, the mould's wall as a force on points, and a base.
 ///
-/// Velocities that vary within a cell are damped by an artificial viscosity eta = alpha rho c h (c the wave
-/// speed of the mixture), which is a stress like any other and part of the stress work; it vanishes with the
-/// cell size.
+/// A background viscosity is a stress like any other and part of the stress work.
 class SlumpRun {
  public:
   SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup& setup);
@@ -30,6 +28,14 @@ class SlumpRun {
   [[nodiscard]] Outline outline() const { return trace_outline(particles(), cell_size(), time()); }
   [[nodiscard]] HistoryRow history_row() const;
   [[nodiscard]] Snapshot snapshot() const;
+
+  /// Saves or loads what steps change, of a run of the same parameters and setup.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(engine_);
+  }
+  /// Length of the last step (s); 0 before the first.
+  [[nodiscard]] double last_step() const { return engine_.last_step(); }
 
   [[nodiscard]] long steps() const { return engine_.steps(); }
   [[nodiscard]] long substepped() const { return engine_.count().substepped; }

@@ -65,8 +65,7 @@ struct Numerics {
   double water_bulk_modulus = 300e3;  ///< K_w (Pa), the undrained penalty
   double courant = 0.8;               ///< fraction of the critical time step, in (0, 1]
   double tolerance = 3e-3;            ///< relative tolerance of the stress update in a step
-  double artificial_viscosity =
-      0.02;  ///< alpha of eta = alpha rho c h (-), in [0, 0.2]; fades with the cell size
+  double background_viscosity = 1.5;  ///< eta (Pa s) of a stress 2 eta D* beside the law's, >= 0; README.md
   int threads = 1;
   double inertia_scaling = 100.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
 };

@@ -28,6 +28,12 @@ struct CornerField {
 
   void average_pressure();
   void average_rate();
+  /// What a step leaves to the next.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(pressures);
+    archive(mean);
+  }
 };
 
 /// What a body's points give to the nodes besides their state.
@@ -35,7 +41,7 @@ struct PushSettings {
   double time = 0.0;             ///< s
   double dt = 0.0;               ///< s
   double gravity = 0.0;          ///< m/s2, downwards
-  double two_eta = 0.0;          ///< twice the artificial viscosity (Pa s)
+  double two_eta = 0.0;          ///< twice the viscosity beside the material (Pa s)
   double velocity_scale = 1.0;   ///< of the points' velocities and their gradients
   const double* mean = nullptr;  ///< averaged pressure at corners; none where the body is not averaged
   const Material* material = nullptr;

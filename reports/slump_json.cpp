@@ -44,7 +44,7 @@ ordered_json slump_json(const mpm::SlumpSetup& setup, const mpm::SlumpResult& re
                       {"cell_size_asked_mm", json_number(1e3 * numerics.cell_size)},
                       {"points_per_cell", numerics.points_per_cell},
                       {"water_bulk_modulus_kPa", json_number(1e-3 * numerics.water_bulk_modulus)},
-                      {"artificial_viscosity", json_number(numerics.artificial_viscosity)},
+                      {"background_viscosity_Pa_s", json_number(numerics.background_viscosity)},
                       {"inertia_scaling_limit", json_number(numerics.inertia_scaling)},
                       {"inertia_scaling_used", json_number(largest_inertia_scaling(result))},
                       {"courant", json_number(numerics.courant)},

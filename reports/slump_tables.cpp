@@ -87,14 +87,13 @@ std::string numerics_text(const NamedRun& run) {
   return fmt::format(
       "Axisymmetric material point method, explicit, undrained: cells of {} mm ({} mm asked for; they divide "
       "the "
-      "mould's radius), {} points a cell at the start, bulk modulus of the water {} kPa, artificial "
-      "viscosity α = {} "
-      "(η = α ρ c h, which fades with the cell size), stress update to a relative tolerance of {}, time step "
+      "mould's radius), {} points a cell at the start, bulk modulus of the water {} kPa, a "
+      "viscosity of {} Pa s beside the law, stress update to a relative tolerance of {}, time step "
       "{} of "
       "the critical one. While the flow is quasi-static, inertia may be scaled up to a factor of {}.",
       format_number(kMillimetres * run.result->cell_size, 3),
       format_number(kMillimetres * numerics.cell_size, 3), numerics.points_per_cell,
-      format_number(1e-3 * numerics.water_bulk_modulus, 3), format_number(numerics.artificial_viscosity, 2),
+      format_number(1e-3 * numerics.water_bulk_modulus, 3), format_number(numerics.background_viscosity, 2),
       format_number(numerics.tolerance, 2), format_number(numerics.courant, 2),
       format_number(numerics.inertia_scaling, 3));
 }

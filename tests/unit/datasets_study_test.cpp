@@ -352,14 +352,14 @@ TEST_F(StudyFile, NumericsComeOutInSI) {
   const mpm::Numerics numerics =
       read_changed("points_per_cell = 9\n",
                    "points_per_cell = 16\nwater_bulk_modulus_kPa = 500\ncourant = 0.3\ntolerance = 1e-4\n"
-                   "artificial_viscosity = 0.01\ninertia_scaling = 7\n")
+                   "background_viscosity_Pa_s = 0.4\ninertia_scaling = 7\n")
           .slump_tests[0]
           .setup.numerics;
   EXPECT_EQ(numerics.points_per_cell, 16);
   EXPECT_DOUBLE_EQ(numerics.water_bulk_modulus, 5e5);
   EXPECT_DOUBLE_EQ(numerics.courant, 0.3);
   EXPECT_DOUBLE_EQ(numerics.tolerance, 1e-4);
-  EXPECT_DOUBLE_EQ(numerics.artificial_viscosity, 0.01);
+  EXPECT_DOUBLE_EQ(numerics.background_viscosity, 0.4);
   EXPECT_DOUBLE_EQ(numerics.inertia_scaling, 7.0);
 }
 

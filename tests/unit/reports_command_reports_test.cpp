@@ -25,7 +25,7 @@ TEST(SlumpFitReport, ShowsOutlinesAndSaysWhatCannotBeKnown) {
   const std::string html =
       slump_fit_report(run_of("fit-slump"), small_study(), small_calibration().slump).html();
   expect_parts(html, {"slump-2", "slump-4 (held out)", "slump-4.csv", "factor (1 − C_1) on the rate",
-                      "artificial viscosity α", "bulk modulus of the water 300 kPa", "Floored", "13.0 mm"});
+                      "1.5 Pa s beside the law", "bulk modulus of the water 300 kPa", "Floored", "13.0 mm"});
   // two tests; cost, I_v and C_1 against evaluations
   EXPECT_EQ(count(html, "<svg "), 5U);
 }
