@@ -9,22 +9,24 @@
 
 namespace isotach::mpm {
 
-/// Points that are updated together; also the packs' common multiple.
+/// Points that are moved together; a multiple of all packs.
 inline constexpr std::size_t kBlock = 64;
+/// Points whose stress is updated together: many, so that the few that need more work can share it.
+inline constexpr std::size_t kChunk = 1024;
 
-/// The motion of a block of points in a step, and what comes of it. Entries belong to the points from `begin`
+/// The motion of some points in a step, and what comes of it. Entries belong to the points from `begin`
 /// on; those past the body's last point are its padding.
-struct MaterialBlock {
+struct MaterialChunk {
   std::size_t begin = 0;                                              ///< a multiple of kBlock
-  std::size_t count = 0;                                              ///< <= kBlock
+  std::size_t count = 0;                                              ///< <= kChunk
   double dt = 0.0;                                                    ///< s
-  alignas(64) std::array<std::array<double, kBlock>, 4> strain_rate;  ///< plane Mandel (1/s)
-  alignas(64) std::array<double, kBlock> spin;                        ///< W_rz (1/s)
+  alignas(64) std::array<std::array<double, kChunk>, 4> strain_rate;  ///< plane Mandel (1/s)
+  alignas(64) std::array<double, kChunk> spin;                        ///< W_rz (1/s)
   alignas(
-      64) std::array<double, kBlock> total_pressure;  ///< out: mean total stress (Pa), compression positive
+      64) std::array<double, kChunk> total_pressure;  ///< out: mean total stress (Pa), compression positive
 };
 
-/// What a step met, added up over blocks.
+/// What a step met, added up over chunks.
 struct MaterialCount {
   long substepped = 0;    ///< point updates that needed adaptive substeps of their own
   long floored = 0;       ///< point updates that ended at the least mean effective pressure
@@ -47,8 +49,8 @@ class Material {
   Material& operator=(const Material&) = delete;
   virtual ~Material() = default;
 
-  /// Advances stress and void ratio of the block's points and gives their total pressures.
-  virtual void update(Particles& particles, MaterialBlock& block, MaterialCount& count) const = 0;
+  /// Advances stress and void ratio of the chunk's points and gives their total pressures.
+  virtual void update(Particles& particles, MaterialChunk& chunk, MaterialCount& count) const = 0;
 
   /// Total pressure of the points begin .. begin + count - 1 as they are (Pa).
   virtual void total_pressure(const Particles& particles, std::size_t begin, std::size_t count,

@@ -80,12 +80,36 @@ std::size_t padded_to_octets(std::size_t count) {
   return (count + kOctet - 1) / kOctet * kOctet;
 }
 
-/// Notes that a cell's `size` by `size` nodes (or corners) are in use.
+/// Notes the nodes (or corners) that cells touch, `size` by `size` each. Neighbours follow each other, so
+/// rows are widened once for a stretch of cells.
 template <class T>
-void touch(RowSums<T>& sums, std::size_t cell, std::size_t row, std::size_t size) {
-  const std::size_t end = cell - row * sums.stride() + size;
-  for (std::size_t j = 0; j < size; ++j) sums.touch(row + j, end);
-}
+class Extent {
+ public:
+  Extent(RowSums<T>& sums, std::size_t size) : sums_(sums), size_(size) {}
+  ~Extent() { flush(); }
+  Extent(const Extent&) = delete;
+  Extent& operator=(const Extent&) = delete;
+
+  [[gnu::always_inline]] void touch(std::size_t cell, std::size_t row) {
+    const std::size_t end = cell - row * sums_.stride() + size_;
+    if (row != row_) {
+      flush();
+      row_ = row;
+      end_ = 0;
+    }
+    end_ = std::max(end_, end);
+  }
+
+ private:
+  void flush() {
+    for (std::size_t j = 0; j < size_ && end_ > 0; ++j) sums_.touch(row_ + j, end_);
+  }
+
+  RowSums<T>& sums_;
+  std::size_t size_;
+  std::size_t row_ = 0;
+  std::size_t end_ = 0;
+};
 
 template <Symmetry S>
 [[gnu::always_inline]] inline Octet hoop_rate(const Octet& velocity_r, const Octet& r) {
@@ -243,6 +267,7 @@ void push_to_nodes(const Particles& q, std::size_t begin, std::size_t end, const
     }
 
     Octet node[3][3];
+    Extent extent(sums, 3);
     for_cells(
         cells, count,
         [&](std::size_t) {
@@ -265,7 +290,7 @@ void push_to_nodes(const Particles& q, std::size_t begin, std::size_t end, const
           }
         },
         [&](std::size_t cell, std::size_t row_of_cell) {
-          touch(sums, cell, row_of_cell, 3);
+          extent.touch(cell, row_of_cell);
           for (std::size_t b = 0; b < 3; ++b) {
             Octet* row = sums.data() + cell + b * stride;
             for (std::size_t a = 0; a < 3; ++a) row[a] += node[b][a];
@@ -424,6 +449,7 @@ PullResult pull_from_nodes(Particles& q, std::size_t begin, std::size_t end, con
     }
 
     if (rates != nullptr) {
+      Extent extent(*rates, 2);
       double s00 = 0.0;
       double s10 = 0.0;
       double s01 = 0.0;
@@ -437,7 +463,7 @@ PullResult pull_from_nodes(Particles& q, std::size_t begin, std::size_t end, con
             s11 += parts.c11[p];
           },
           [&](std::size_t cell, std::size_t row) {
-            touch(*rates, cell, row, 2);
+            extent.touch(cell, row);
             double* corner = rates->data() + cell;
             corner[0] += s00;
             corner[1] += s10;
@@ -470,6 +496,7 @@ void scatter_pressure(const Particles& q, std::size_t start, std::size_t count, 
     moments.store(p, w, volume * load_octet(pressure + p));
   }
   CornerSum sums[4];
+  Extent extent(pressures, 2);
   for_cells(
       cells, count,
       [&](std::size_t) {
@@ -482,7 +509,7 @@ void scatter_pressure(const Particles& q, std::size_t start, std::size_t count, 
         sums[3] += CornerSum{volumes.c11[p], moments.c11[p]};
       },
       [&](std::size_t cell, std::size_t row) {
-        touch(pressures, cell, row, 2);
+        extent.touch(cell, row);
         CornerSum* corner = pressures.data() + cell;
         corner[0] += sums[0];
         corner[1] += sums[1];
@@ -493,61 +520,77 @@ void scatter_pressure(const Particles& q, std::size_t start, std::size_t count, 
 
 }  // namespace
 
+namespace {
+
+/// Strain rates of a block of points, as the material sees them; entries of the chunk from p on.
+template <Symmetry S>
+void strain_rates(const Particles& q, std::size_t start, std::size_t count, const Grid& grid,
+                  const double* mean_rate, MaterialChunk& chunk, std::size_t entry) {
+  const std::size_t stride = grid.stride();
+  const double inverse_h = 1.0 / grid.cell_size();
+  const std::size_t packed = padded_to_octets(count);
+  BlockCells cells;
+  CornerValues corners;
+  alignas(64) Column x;
+  alignas(64) Column y;
+  if (mean_rate != nullptr) {
+    for (std::size_t p = 0; p < packed; p += kOctet) {
+      const CellPlace place =
+          cell_place(load_octet(&q.r[start + p]), load_octet(&q.z[start + p]), inverse_h, stride);
+      cells.store(p, place);
+      store_octet(x + p, place.x);
+      store_octet(y + p, place.y);
+    }
+    corners.fetch(cells, packed, mean_rate, stride);
+  }
+  for (std::size_t p = 0; p < kBlock; p += kOctet) {
+    const std::size_t i = start + p;
+    Octet d_rr = load_octet(&q.l_rr[i]);
+    Octet d_zz = load_octet(&q.l_zz[i]);
+    Octet d_tt = hoop_rate<S>(load_octet(&q.grid_velocity_r[i]), load_octet(&q.r[i]));
+    if (mean_rate != nullptr && p < packed) {
+      const CellPlace place{{}, {}, load_octet(x + p), load_octet(y + p)};
+      const Octet change = (corners.at(p, CornerOctets(place)) - (d_rr + d_zz + d_tt)) * (1.0 / 3.0);
+      d_rr += change;
+      d_zz += change;
+      d_tt += change;
+    }
+    const Octet l_rz = load_octet(&q.l_rz[i]);
+    const Octet l_zr = load_octet(&q.l_zr[i]);
+    store_octet(&chunk.strain_rate[0][entry + p], d_rr);
+    store_octet(&chunk.strain_rate[1][entry + p], d_zz);
+    store_octet(&chunk.strain_rate[2][entry + p], d_tt);
+    store_octet(&chunk.strain_rate[3][entry + p], (l_rz + l_zr) * (1.0 / std::numbers::sqrt2));
+    store_octet(&chunk.spin[entry + p], 0.5 * (l_rz - l_zr));
+  }
+}
+
+}  // namespace
+
 template <Symmetry S>
 void update_points(Particles& q, std::size_t begin, std::size_t end, const Grid& grid, double dt,
                    const double* mean_rate, const Material& material, RowSums<CornerSum>* pressures,
                    MaterialCount& count_met) {
-  const double inverse_h = 1.0 / grid.cell_size();
-  const std::size_t stride = grid.stride();
-  BlockCells cells;
-  CornerValues corners;
-  MaterialBlock block;
-  block.dt = dt;
-  alignas(64) Column x;
-  alignas(64) Column y;
-  for (std::size_t start = begin; start < end; start += kBlock) {
-    const std::size_t count = std::min(kBlock, end - start);
-    const std::size_t packed = padded_to_octets(count);
-    if (mean_rate != nullptr) {
-      for (std::size_t p = 0; p < packed; p += kOctet) {
-        const CellPlace place =
-            cell_place(load_octet(&q.r[start + p]), load_octet(&q.z[start + p]), inverse_h, stride);
-        cells.store(p, place);
-        store_octet(x + p, place.x);
-        store_octet(y + p, place.y);
+  MaterialChunk chunk;
+  chunk.dt = dt;
+  for (std::size_t first = begin; first < end; first += kChunk) {
+    chunk.begin = first;
+    chunk.count = std::min(kChunk, end - first);
+    const std::size_t last = first + chunk.count;
+    for (std::size_t start = first; start < last; start += kBlock) {
+      strain_rates<S>(q, start, std::min(kBlock, last - start), grid, mean_rate, chunk, start - first);
+    }
+    material.update(q, chunk, count_met);
+    for (std::size_t start = first; start < last; start += kBlock) {
+      const std::size_t count = std::min(kBlock, last - start);
+      for (std::size_t p = 0; p < padded_to_octets(count); p += kOctet) {
+        const std::size_t i = start + p;
+        store_octet(&q.r[i], load_octet(&q.r[i]) + dt * load_octet(&q.grid_velocity_r[i]));
+        store_octet(&q.z[i], load_octet(&q.z[i]) + dt * load_octet(&q.grid_velocity_z[i]));
       }
-      corners.fetch(cells, packed, mean_rate, stride);
-    }
-    block.begin = start;
-    block.count = count;
-    for (std::size_t p = 0; p < kBlock; p += kOctet) {
-      const std::size_t i = start + p;
-      Octet d_rr = load_octet(&q.l_rr[i]);
-      Octet d_zz = load_octet(&q.l_zz[i]);
-      Octet d_tt = hoop_rate<S>(load_octet(&q.grid_velocity_r[i]), load_octet(&q.r[i]));
-      if (mean_rate != nullptr && p < packed) {
-        const CellPlace place{{}, {}, load_octet(x + p), load_octet(y + p)};
-        const Octet change = (corners.at(p, CornerOctets(place)) - (d_rr + d_zz + d_tt)) * (1.0 / 3.0);
-        d_rr += change;
-        d_zz += change;
-        d_tt += change;
+      if (pressures != nullptr) {
+        scatter_pressure(q, start, count, grid, &chunk.total_pressure[start - first], *pressures);
       }
-      const Octet l_rz = load_octet(&q.l_rz[i]);
-      const Octet l_zr = load_octet(&q.l_zr[i]);
-      store_octet(&block.strain_rate[0][p], d_rr);
-      store_octet(&block.strain_rate[1][p], d_zz);
-      store_octet(&block.strain_rate[2][p], d_tt);
-      store_octet(&block.strain_rate[3][p], (l_rz + l_zr) * (1.0 / std::numbers::sqrt2));
-      store_octet(&block.spin[p], 0.5 * (l_rz - l_zr));
-    }
-    material.update(q, block, count_met);
-    for (std::size_t p = 0; p < packed; p += kOctet) {
-      const std::size_t i = start + p;
-      store_octet(&q.r[i], load_octet(&q.r[i]) + dt * load_octet(&q.grid_velocity_r[i]));
-      store_octet(&q.z[i], load_octet(&q.z[i]) + dt * load_octet(&q.grid_velocity_z[i]));
-    }
-    if (pressures != nullptr) {
-      scatter_pressure(q, start, count, grid, block.total_pressure.data(), *pressures);
     }
   }
 }

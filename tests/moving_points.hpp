@@ -31,16 +31,17 @@ struct MovingPoints : mpm::Particles {
 /// One step of dt (s) of a material at all points.
 inline mpm::MaterialCount update(const mpm::Material& material, MovingPoints& points, double dt) {
   mpm::MaterialCount count;
-  mpm::MaterialBlock block;
-  block.dt = dt;
-  for (std::size_t begin = 0; begin < points.count; begin += mpm::kBlock) {
-    block.begin = begin;
-    block.count = std::min(mpm::kBlock, points.count - begin);
+  mpm::MaterialChunk chunk;
+  chunk.dt = dt;
+  for (std::size_t begin = 0; begin < points.count; begin += mpm::kChunk) {
+    chunk.begin = begin;
+    chunk.count = std::min(mpm::kChunk, points.count - begin);
+    const std::size_t padded = mpm::Particles::padded(chunk.count, mpm::kBlock);
     for (std::size_t k = 0; k < 4; ++k) {
-      std::copy_n(&points.strain_rate[k][begin], mpm::kBlock, block.strain_rate[k].data());
+      std::copy_n(&points.strain_rate[k][begin], padded, chunk.strain_rate[k].data());
     }
-    std::copy_n(&points.spin[begin], mpm::kBlock, block.spin.data());
-    material.update(points, block, count);
+    std::copy_n(&points.spin[begin], padded, chunk.spin.data());
+    material.update(points, chunk, count);
   }
   return count;
 }

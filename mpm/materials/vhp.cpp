@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "mpm/lanes.hpp"
 
@@ -15,6 +16,7 @@ using model::Fabric;
 using model::kPlane;
 
 constexpr double kSubstepMargin = 1.2;
+constexpr double kRetryFactor = 1.5;       // at least so many more substeps where the estimate was too low
 constexpr int kMostPackSubsteps = 24;      // beyond, substeps for single points are cheaper
 constexpr long kMostPointSubsteps = 1000;  // beyond, the point is on its way out of the domain
 constexpr double kFloorTolerance = 0.1;  // of the least pressure: stresses near it need no relative accuracy
@@ -28,18 +30,44 @@ struct Pack {
   Eigen::Matrix<Lanes, 3, 1> spin;
 };
 
+/// Points of a chunk side by side, from entry p on.
 template <Fabric K>
-Pack<K> load(const Particles& particles, const MaterialBlock& block, std::size_t p) {
+Pack<K> load(const Particles& particles, const MaterialChunk& chunk, std::size_t p) {
   Pack<K> pack;
-  const std::size_t start = block.begin + p;
+  const std::size_t start = chunk.begin + p;
   for (std::size_t k = 0; k < kPlane; ++k) {
     const int component = static_cast<int>(k);
     pack.state.stress[component] = Lanes::load(&particles.stress[k][start]);
-    pack.strain_rate[component] = Lanes::load(&block.strain_rate[k][p]);
+    pack.strain_rate[component] = Lanes::load(&chunk.strain_rate[k][p]);
     if constexpr (K == Fabric::omega) pack.state.omega[component] = Lanes::load(&particles.omega[k][start]);
   }
   pack.state.void_ratio = Lanes::load(&particles.void_ratio[start]);
-  pack.spin[0] = Lanes::load(&block.spin[p]);
+  pack.spin[0] = Lanes::load(&chunk.spin[p]);
+  pack.spin[1] = pack.spin[2] = Lanes(0.0);
+  return pack;
+}
+
+/// A number of the points at the entries of a chunk.
+Lanes gather(const double* values, const std::uint32_t* entries) {
+  std::array<double, Lanes::kCount> lanes;
+  for (std::size_t lane = 0; lane < Lanes::kCount; ++lane) lanes[lane] = values[entries[lane]];
+  return Lanes::load(lanes.data());
+}
+
+/// Points of a chunk at any entries.
+template <Fabric K>
+Pack<K> gather(const Particles& particles, const MaterialChunk& chunk, const std::uint32_t* entries) {
+  Pack<K> pack;
+  for (std::size_t k = 0; k < kPlane; ++k) {
+    const int component = static_cast<int>(k);
+    pack.state.stress[component] = gather(&particles.stress[k][chunk.begin], entries);
+    pack.strain_rate[component] = gather(chunk.strain_rate[k].data(), entries);
+    if constexpr (K == Fabric::omega) {
+      pack.state.omega[component] = gather(&particles.omega[k][chunk.begin], entries);
+    }
+  }
+  pack.state.void_ratio = gather(&particles.void_ratio[chunk.begin], entries);
+  pack.spin[0] = gather(chunk.spin.data(), entries);
   pack.spin[1] = pack.spin[2] = Lanes(0.0);
   return pack;
 }
@@ -63,15 +91,55 @@ void store(const model::State<double, kPlane, K>& state, Particles& particles, s
   particles.void_ratio[i] = state.void_ratio;
 }
 
+/// `next` in the lanes whose error is within the tolerance, `before` in the others.
 template <Fabric K>
-model::State<double, kPlane, K> lane_of(const model::State<Lanes, kPlane, K>& pack, std::size_t lane) {
-  model::State<double, kPlane, K> state;
+model::State<Lanes, kPlane, K> accepted(const Lanes& errors, const model::State<Lanes, kPlane, K>& next,
+                                        const model::State<Lanes, kPlane, K>& before) {
+  const Lanes one(1.0);
+  model::State<Lanes, kPlane, K> state;
   for (int k = 0; k < kPlane; ++k) {
-    state.stress[k] = pack.stress[k][lane];
-    if constexpr (K == Fabric::omega) state.omega[k] = pack.omega[k][lane];
+    state.stress[k] = where_le(errors, one, next.stress[k], before.stress[k]);
+    if constexpr (K == Fabric::omega) {
+      state.omega[k] = where_le(errors, one, next.omega[k], before.omega[k]);
+    }
   }
-  state.void_ratio = pack.void_ratio[lane];
+  state.void_ratio = where_le(errors, one, next.void_ratio, before.void_ratio);
   return state;
+}
+
+/// The lanes of a pack, to go to places of their own.
+template <Fabric K>
+class Spread {
+ public:
+  explicit Spread(const model::State<Lanes, kPlane, K>& pack) {
+    for (std::size_t k = 0; k < kPlane; ++k) {
+      pack.stress[static_cast<int>(k)].store(stress_[k].data());
+      if constexpr (K == Fabric::omega) pack.omega[static_cast<int>(k)].store(omega_[k].data());
+    }
+    pack.void_ratio.store(void_ratio_.data());
+  }
+  void store(std::size_t lane, Particles& particles, std::size_t i) const {
+    for (std::size_t k = 0; k < kPlane; ++k) {
+      particles.stress[k][i] = stress_[k][lane];
+      if constexpr (K == Fabric::omega) particles.omega[k][i] = omega_[k][lane];
+    }
+    particles.void_ratio[i] = void_ratio_[lane];
+  }
+
+ private:
+  using Column = std::array<double, Lanes::kCount>;
+  std::array<Column, kPlane> stress_;
+  std::array<Column, kPlane> omega_;
+  Column void_ratio_;
+};
+
+/// How many times more substeps a point asks for whose squared error is this: EST is of order tau^2.
+double wanted_substeps(double squared_error) {
+  return kSubstepMargin * std::sqrt(std::sqrt(squared_error));
+}
+/// A number of substeps; beyond those of packs all are alike.
+int whole(double substeps) {
+  return static_cast<int>(std::ceil(std::min(substeps, kMostPackSubsteps + 1.0)));
 }
 
 /// ln(1 + x), to 2e-16 absolute: it is added to values of order one.
@@ -99,11 +167,8 @@ class PackSteps {
         inverse_tolerance_squared_(1.0 / (tolerance * tolerance)),
         least_pressure_(least_pressure) {}
 
-  /// The pack of the block's points from p on after the step.
-  [[gnu::flatten]] void operator()(const Particles& particles, const MaterialBlock& block, std::size_t p,
-                                   int substeps, Trial<K>& trial) const {
-    const Pack<K> pack = load<K>(particles, block, p);
-    const double dt = block.dt;
+  /// The pack after a step of dt (s).
+  [[gnu::flatten]] void operator()(const Pack<K>& pack, double dt, int substeps, Trial<K>& trial) const {
     model::State<Lanes, kPlane, K> y = pack.state;
     const Lanes whole(dt / substeps);
     const Lanes half(0.5 * dt / substeps);
@@ -204,79 +269,131 @@ void VhpMaterial::total_pressure(const Particles& particles, std::size_t begin, 
   }
 }
 
-void VhpMaterial::update(Particles& particles, MaterialBlock& block, MaterialCount& count) const {
+void VhpMaterial::update(Particles& particles, MaterialChunk& chunk, MaterialCount& count) const {
   if (law_.parameters().rotates()) {
-    update_form<Fabric::omega>(particles, block, count);
+    update_form<Fabric::omega>(particles, chunk, count);
   } else {
-    update_form<Fabric::none>(particles, block, count);
+    update_form<Fabric::none>(particles, chunk, count);
   }
-}
-
-template <Fabric K>
-void VhpMaterial::update_form(Particles& particles, MaterialBlock& block, MaterialCount& count) const {
-  const PackSteps<K> advance(law_, settings_.tolerance, settings_.least_pressure);
   const Lanes bulk(settings_.water_bulk_modulus);
-  Trial<K> trial;
   Lanes highest(0.0);
   Lanes densest(-HUGE_VAL);
-  for (std::size_t p = 0; p < block.count; p += Lanes::kCount) {
-    advance(particles, block, p, 1, trial);
-    if (trial.worst > 1.0) {
-      // EST is of order tau^2; a pack that one substep cannot serve takes as many as its worst point asks for
-      const double wanted = std::ceil(kSubstepMargin * std::pow(trial.worst, 0.25));
-      advance(particles, block, p, static_cast<int>(std::min(wanted, double{kMostPackSubsteps})), trial);
-    }
-    const std::size_t start = block.begin + p;
-    if (trial.worst <= 1.0) {
-      store<K>(trial.state, particles, start);
-    } else {
-      const std::size_t end = std::min(p + Lanes::kCount, block.count);
-      for (std::size_t point = p; point < end; ++point) {
-        if (trial.errors[point - p] <= 1.0) {
-          store<K>(lane_of<K>(trial.state, point - p), particles, block.begin + point);
-        } else {
-          ++count.substepped;
-          if (!substep<K>(particles, block, point)) ++count.floored;
-        }
-      }
-      for (int k = 0; k < kPlane; ++k) {
-        trial.state.stress[k] = Lanes::load(&particles.stress[static_cast<std::size_t>(k)][start]);
-      }
-      trial.state.void_ratio = Lanes::load(&particles.void_ratio[start]);
-    }
-    const Lanes pressure = model::trace<Lanes, kPlane>(trial.state.stress) * (-1.0 / 3.0);
-    const Lanes water =
-        Lanes::load(&particles.reference_pressure[start]) - bulk * log(trial.state.void_ratio);
-    (pressure + water).store(&block.total_pressure[p]);
+  for (std::size_t p = 0; p < chunk.count; p += Lanes::kCount) {
+    const std::size_t start = chunk.begin + p;
+    const auto& T = particles.stress;
+    const Lanes pressure =
+        (Lanes::load(&T[0][start]) + Lanes::load(&T[1][start]) + Lanes::load(&T[2][start])) * (-1.0 / 3.0);
+    const Lanes void_ratio = Lanes::load(&particles.void_ratio[start]);
+    const Lanes water = Lanes::load(&particles.reference_pressure[start]) - bulk * log(void_ratio);
+    (pressure + water).store(&chunk.total_pressure[p]);
     highest = max(highest, pressure);
-    densest = max(densest, -trial.state.void_ratio);
+    densest = max(densest, -void_ratio);
   }
   count.stiffest = std::max(count.stiffest, modulus(largest(highest), -largest(densest)));
 }
 
 template <Fabric K>
-bool VhpMaterial::substep(Particles& particles, const MaterialBlock& block, std::size_t p) const {
+void VhpMaterial::update_form(Particles& particles, MaterialChunk& chunk, MaterialCount& count) const {
+  const PackSteps<K> advance(law_, settings_.tolerance, settings_.least_pressure);
+  Trial<K> trial;
+  std::array<Left, kChunk> left;
+  std::size_t lefts = 0;
+  for (std::size_t p = 0; p < chunk.count; p += Lanes::kCount) {
+    const Pack<K> pack = load<K>(particles, chunk, p);
+    advance(pack, chunk.dt, 1, trial);
+    if (trial.worst <= 1.0) {
+      store<K>(trial.state, particles, chunk.begin + p);
+      continue;
+    }
+    store<K>(accepted<K>(trial.errors, trial.state, pack.state), particles, chunk.begin + p);
+    std::array<double, Lanes::kCount> errors;
+    trial.errors.store(errors.data());
+    const std::size_t lanes = std::min(Lanes::kCount, chunk.count - p);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!(errors[lane] <= 1.0)) {
+        left[lefts++] = {static_cast<std::uint32_t>(p + lane), whole(wanted_substeps(errors[lane]))};
+      }
+    }
+  }
+  if (lefts > 0) update_left<K>(particles, chunk, {left.data(), lefts}, count);
+}
+
+/// Those that ask for most first; returns how many ask for more than packs take.
+std::size_t VhpMaterial::sort_by_substeps(std::span<Left> left) {
+  std::array<std::size_t, kMostPackSubsteps + 3> starts{};
+  const auto rank = [](const Left& one) {
+    return static_cast<std::size_t>(kMostPackSubsteps + 1 - one.substeps);
+  };
+  for (const Left& one : left) ++starts[rank(one) + 1];
+  for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
+  const std::size_t alone = starts[1];
+  std::array<Left, kChunk> sorted;
+  for (const Left& one : left) sorted[starts[rank(one)]++] = one;
+  std::copy_n(sorted.begin(), left.size(), left.begin());
+  return alone;
+}
+
+template <Fabric K>
+void VhpMaterial::update_left(Particles& particles, const MaterialChunk& chunk, std::span<Left> left,
+                              MaterialCount& count) const {
+  const PackSteps<K> advance(law_, settings_.tolerance, settings_.least_pressure);
+  Trial<K> trial;
+  std::array<double, Lanes::kCount> errors;
+  std::array<std::uint32_t, Lanes::kCount> entries;
+  while (!left.empty()) {
+    const std::size_t alone = sort_by_substeps(left);
+    for (std::size_t k = 0; k < alone; ++k) {
+      ++count.substepped;
+      if (!substep<K>(particles, chunk, left[k].entry)) ++count.floored;
+    }
+    std::size_t begin = alone;
+    std::size_t still_left = 0;
+    while (begin < left.size()) {
+      const std::size_t lanes = std::min(Lanes::kCount, left.size() - begin);
+      for (std::size_t lane = 0; lane < Lanes::kCount; ++lane) {
+        entries[lane] = left[begin + std::min(lane, lanes - 1)].entry;  // the last one fills the pack
+      }
+      const int substeps = left[begin].substeps;
+      advance(gather<K>(particles, chunk, entries.data()), chunk.dt, substeps, trial);
+      trial.errors.store(errors.data());
+      const Spread<K> spread(trial.state);
+      begin += lanes;
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (errors[lane] <= 1.0) {
+          spread.store(lane, particles, chunk.begin + entries[lane]);
+        } else {  // entries before `begin` are done with
+          const double factor = std::max(kRetryFactor, wanted_substeps(errors[lane]));
+          left[still_left++] = {entries[lane], whole(factor * substeps)};
+        }
+      }
+    }
+    left = left.first(still_left);
+  }
+}
+
+template <Fabric K>
+bool VhpMaterial::substep(Particles& particles, const MaterialChunk& chunk, std::size_t p) const {
   using State = model::State<double, kPlane, K>;
-  const std::size_t i = block.begin + p;
+  const std::size_t i = chunk.begin + p;
   const double least_pressure = settings_.least_pressure;
   State state = model::in_form<K>(particles.state(i));
   model::Mandel<double, kPlane> strain_rate;
-  for (int k = 0; k < kPlane; ++k) strain_rate[k] = block.strain_rate[static_cast<std::size_t>(k)][p];
+  for (int k = 0; k < kPlane; ++k) strain_rate[k] = chunk.strain_rate[static_cast<std::size_t>(k)][p];
   const double norm = model::norm_of<double, kPlane>(strain_rate);
-  const Eigen::Vector3d spin(block.spin[p], 0.0, 0.0);
+  const Eigen::Vector3d spin(chunk.spin[p], 0.0, 0.0);
 
   integrators::Tolerance tolerance;
   tolerance.relative = settings_.tolerance;
   tolerance.estimate_share = 1.0;  // as for packs
   tolerance.absolute_stress = kFloorTolerance * least_pressure;
   tolerance.max_substeps = kMostPointSubsteps;
-  double first_substep = 0.5 * block.dt;
+  double first_substep = 0.5 * chunk.dt;
   const double void_ratio_before = state.void_ratio;
   const auto inside = [&](const State& y) {
     return model::trace<double, kPlane>(y.stress) / -3.0 >= least_pressure && law_.in_domain(y);
   };
   const auto done = integrators::fellin_ostermann_substeps(
-      state, block.dt, tolerance, first_substep,
+      state, chunk.dt, tolerance, first_substep,
       [&](const State& y, model::StateRate<double, kPlane, K>& f) {
         if (!inside(y)) return false;
         f = law_.rate(y, strain_rate, norm);
@@ -285,7 +402,7 @@ bool VhpMaterial::substep(Particles& particles, const MaterialBlock& block, std:
       },
       inside, [](double) {});
   if (!done) {
-    const double volumetric_strain = model::trace<double, kPlane>(strain_rate) * block.dt;
+    const double volumetric_strain = model::trace<double, kPlane>(strain_rate) * chunk.dt;
     state = State{model::unit_tensor<double, kPlane>() * -least_pressure,
                   (1.0 + void_ratio_before) * std::exp(volumetric_strain) - 1.0};
   }

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "integrators/fellin_ostermann.hpp"
 #include "mpm/material.hpp"
 
 namespace isotach::mpm {
 
-/// Midpoint steps (Fellin-Ostermann's accepted solution) for packs of points: one, or as many equal substeps
-/// as the pack's worst error estimate asks for. A point that still exceeds the tolerance is done again by
+/// Midpoint steps (Fellin-Ostermann's accepted solution) for packs of points. Points that exceed the
+/// tolerance are gathered into packs of their own, those that ask for most first, and done again in as many
+/// equal substeps as the pack's worst error estimate asks for; a point that still exceeds it is done by
 /// itself with adaptive substeps.
 ///
 /// A point whose mean effective pressure would fall below `least_pressure` leaves the law's domain (the
@@ -27,7 +30,7 @@ class VhpMaterial final : public Material {
   };
   VhpMaterial(const model::Parameters<double>& parameters, const Settings& settings);
 
-  void update(Particles& particles, MaterialBlock& block, MaterialCount& count) const override;
+  void update(Particles& particles, MaterialChunk& chunk, MaterialCount& count) const override;
   void total_pressure(const Particles& particles, std::size_t begin, std::size_t count,
                       double* pressures) const override;
   [[nodiscard]] double wave_modulus(const Particles& particles, std::size_t i) const override;
@@ -39,11 +42,21 @@ class VhpMaterial final : public Material {
   [[nodiscard]] const model::Law<double>& law() const { return law_; }
 
  private:
+  /// A point that exceeded the tolerance in one step, and the number of substeps it asks for.
+  struct Left {
+    std::uint32_t entry;  ///< of the chunk
+    int substeps;
+  };
+
+  [[nodiscard]] static std::size_t sort_by_substeps(std::span<Left> left);
   template <model::Fabric K>
-  void update_form(Particles& particles, MaterialBlock& block, MaterialCount& count) const;
-  /// Updates the block's point p by substeps. Returns false where it ended at the least pressure.
+  void update_form(Particles& particles, MaterialChunk& chunk, MaterialCount& count) const;
   template <model::Fabric K>
-  bool substep(Particles& particles, const MaterialBlock& block, std::size_t p) const;
+  void update_left(Particles& particles, const MaterialChunk& chunk, std::span<Left> left,
+                   MaterialCount& count) const;
+  /// Updates the chunk's point p by substeps. Returns false where it ended at the least pressure.
+  template <model::Fabric K>
+  bool substep(Particles& particles, const MaterialChunk& chunk, std::size_t p) const;
   [[nodiscard]] double modulus(double pressure, double void_ratio) const;
 
   model::Law<double> law_;

@@ -29,7 +29,7 @@ class ViscoplasticMaterial final : public Material {
   };
   explicit ViscoplasticMaterial(const Constants& constants) : constants_(constants) {}
 
-  void update(Particles& particles, MaterialBlock& block, MaterialCount& count) const override;
+  void update(Particles& particles, MaterialChunk& chunk, MaterialCount& count) const override;
   void total_pressure(const Particles& particles, std::size_t begin, std::size_t count,
                       double* pressures) const override;
   [[nodiscard]] double wave_modulus(const Particles& particles, std::size_t i) const override;

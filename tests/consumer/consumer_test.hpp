@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +32,10 @@ class ConsumerTest : public testing::Test {
   }
   [[nodiscard]] Ended run(const std::vector<std::string>& arguments) const { return start(arguments).wait(); }
 
+  [[nodiscard]] std::string contents(const std::string& name) const {
+    std::ifstream in(folder() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
   /// Names of all that is in the working folder and below, sorted.
   [[nodiscard]] std::vector<std::string> everything() const {
     std::vector<std::string> names;

@@ -102,7 +102,7 @@ TEST_F(SlumpCommand, FilesOfOthersInTheOutFolderAreLeftAlone) {
 }
 
 // An hour of a tall slump on fine cells takes far longer than the test waits.
-TEST_F(SlumpCommand, InterruptLeavesNothingBehind) {
+TEST_F(SlumpCommand, InterruptLeavesNothingButTheCheckpoint) {
   std::string slump = replaced(std::string(kTinySlump), "cell_size_mm = 13.0", "cell_size_mm = 1.0");
   slump = replaced(slump, "fill_height_mm = 40.0", "fill_height_mm = 140.0");
   write("slump.toml", replaced(slump, "times_s = [0.1, 0.3]", "times_s = [3600.0]"));
@@ -118,7 +118,28 @@ TEST_F(SlumpCommand, InterruptLeavesNothingBehind) {
     const Ended ended = process.wait();
     EXPECT_EQ(ended.code, 130);
     EXPECT_NE(ended.err.find("interrupted"), std::string::npos) << ended.err;
-    EXPECT_EQ(everything(), (std::vector<std::string>{"slump.toml"}));
+    std::vector<std::string> left = everything();
+    std::erase(left, "new");  // the folder of a checkpoint, which an early interrupt does not make
+    std::erase(left, "new/results.checkpoint");
+    EXPECT_EQ(left, (std::vector<std::string>{"slump.toml"}));
+    std::filesystem::remove_all(folder() / "new");
+  }
+}
+
+TEST_F(SlumpCommand, AnInterruptedRunGoesOnWhereItStopped) {
+  std::string slump = replaced(std::string(kTinySlump), "cell_size_mm = 13.0", "cell_size_mm = 2.0");
+  write("slump.toml", replaced(slump, "times_s = [0.1, 0.3]", "times_s = [0.1, 1.0]"));
+  ASSERT_EQ(run({"slump", "slump.toml", "--out", "whole"}).code, 0);
+  Process process = start({"slump", "slump.toml", "--out", "parts"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  process.signal(SIGINT);
+  const int code = process.wait().code;
+  if (code == 130) {  // else it was over already
+    EXPECT_EQ(run({"slump", "slump.toml", "--out", "parts"}).code, 0);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder() / "parts.checkpoint"));
+  for (const char* file : {"outlines.csv", "history.csv", "particles/frame_002.vtu"}) {
+    EXPECT_EQ(contents(std::string("parts/") + file), contents(std::string("whole/") + file)) << file;
   }
 }
 
@@ -131,7 +152,9 @@ TEST_F(SlumpCommand, NumericsThatFailAreAResultThatSaysWhere) {
   const Ended ended = run({"slump", "slump.toml", "--out", "results"});
   EXPECT_EQ(ended.code, 3);
   EXPECT_NE(ended.err.find("leaves the grid"), std::string::npos) << ended.err;
-  EXPECT_EQ(everything(), (std::vector<std::string>{"results", "results/result.json", "slump.toml"}));
+  EXPECT_EQ(everything(),
+            (std::vector<std::string>{"results", "results.checkpoint", "results/result.json", "slump.toml"}))
+      << "the last good state is kept";
   const json written = result("results");
   EXPECT_EQ(written.at("command"), "slump");
   EXPECT_EQ(written.at("status"), "failed");

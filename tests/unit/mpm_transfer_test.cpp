@@ -21,13 +21,13 @@ constexpr double kTwoEta = 3.0;    // Pa s
 /// what it was given to the stress.
 class Echo final : public Material {
  public:
-  void update(Particles& q, MaterialBlock& block, MaterialCount& count) const override {
-    for (std::size_t p = 0; p < block.count; ++p) {
-      for (std::size_t k = 0; k < 4; ++k) q.stress[k][block.begin + p] += block.strain_rate[k][p];
-      q.omega[0][block.begin + p] = block.spin[p];
-      block.total_pressure[p] = q.reference_pressure[block.begin + p];
+  void update(Particles& q, MaterialChunk& chunk, MaterialCount& count) const override {
+    for (std::size_t p = 0; p < chunk.count; ++p) {
+      for (std::size_t k = 0; k < 4; ++k) q.stress[k][chunk.begin + p] += chunk.strain_rate[k][p];
+      q.omega[0][chunk.begin + p] = chunk.spin[p];
+      chunk.total_pressure[p] = q.reference_pressure[chunk.begin + p];
     }
-    count.substepped += static_cast<long>(block.count);
+    count.substepped += static_cast<long>(chunk.count);
   }
   void total_pressure(const Particles& q, std::size_t begin, std::size_t count,
                       double* pressures) const override {
