@@ -1,0 +1,111 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "bench/mpm_problems/manufactured_cylinder.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace isotach::bench {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// u = shape(X) s(t), s = sin(w t).
+void set_motion(ElasticProblem& problem, double w, const std::function<Pair(Pair)>& shape) {
+  problem.displacement = [=](Pair x, double t) {
+    const Pair u = shape(x);
+    return Pair{u.r * std::sin(w * t), u.z * std::sin(w * t)};
+  };
+  problem.velocity = [=](Pair x, double t) {
+    const Pair u = shape(x);
+    return Pair{u.r * w * std::cos(w * t), u.z * w * std::cos(w * t)};
+  };
+  problem.shape_time = 0.5 * kPi / w;
+}
+
+ElasticProblem rings(double amplitude, const ElasticConstants& material) {
+  ElasticProblem problem;
+  problem.material = material;
+  problem.sides = {mpm::Side::symmetric, mpm::Side::symmetric, mpm::Side::symmetric, mpm::Side::symmetric};
+  set_motion(problem, manufactured_frequency(material), [=](Pair x) {
+    return Pair{amplitude * x.r * (1.0 - x.r * x.r), 0.0};
+  });
+  return problem;
+}
+
+}  // namespace
+
+double manufactured_frequency(const ElasticConstants& material) {
+  return 0.5 * kPi * material.wave_speed();
+}
+
+ElasticProblem barrel_problem(double amplitude, const ElasticConstants& material) {
+  ElasticProblem problem;
+  problem.material = material;
+  problem.sides = {mpm::Side::symmetric, mpm::Side::open, mpm::Side::fixed, mpm::Side::fixed};
+  problem.open_right = 3.0;
+  const double w = manufactured_frequency(material);
+  const double mu = material.shear();
+  const double lambda = material.lame();
+  const double rho = material.density;
+  const double a = amplitude;
+  set_motion(problem, w, [=](Pair x) { return Pair{a * x.r * std::sin(kPi * x.z), 0.0}; });
+  problem.force = [=](Pair x, double t) {
+    const double s = std::sin(w * t);
+    return Pair{a * x.r * std::sin(kPi * x.z) * (-w * w + mu / rho * kPi * kPi) * s,
+                -2.0 * a / rho * kPi * (lambda + mu) * std::cos(kPi * x.z) * s};
+  };
+  problem.traction = [=](Pair x, double t) {
+    const double s = std::sin(w * t);
+    return Pair{2.0 * (lambda + mu) * a * std::sin(kPi * x.z) * s,
+                mu * a * x.r * kPi * std::cos(kPi * x.z) * s};
+  };
+  return problem;
+}
+
+ElasticProblem shifted_rings_problem(double amplitude, const ElasticConstants& material) {
+  ElasticProblem problem = rings(amplitude, material);
+  const double w = manufactured_frequency(material);
+  const double modulus = material.wave_modulus();
+  const double rho = material.density;
+  problem.force = [=](Pair x, double t) {
+    const double u = amplitude * x.r * (1.0 - x.r * x.r);
+    return Pair{(-w * w * u + 8.0 * modulus * amplitude * x.r / rho) * std::sin(w * t), 0.0};
+  };
+  return problem;
+}
+
+ElasticProblem finite_rings_problem(double amplitude, const ElasticConstants& material) {
+  ElasticProblem problem = rings(amplitude, material);
+  const double w = manufactured_frequency(material);
+  const double mu = material.shear();
+  const double lambda = material.lame();
+  const double rho = material.density;
+  problem.force = [=](Pair x, double t) {
+    const double a = amplitude * std::sin(w * t);
+    const double r2 = x.r * x.r;
+    const double along = 1.0 + a * (1.0 - 3.0 * r2);  // stretches
+    const double around = 1.0 + a * (1.0 - r2);
+    const double d_along = -6.0 * a * x.r;
+    const double d_around = -2.0 * a * x.r;
+    const double ln_j = std::log(along * around);
+    const double sigma_r = lambda * ln_j + 2.0 * mu * std::log(along);
+    const double sigma_hoop = lambda * ln_j + 2.0 * mu * std::log(around);
+    const double d_sigma_r = (lambda + 2.0 * mu) * d_along / along + lambda * d_around / around;
+    // nominal stresses sigma_r around, sigma_hoop along
+    const double divergence =
+        d_sigma_r * around + sigma_r * d_around + (sigma_r * around - sigma_hoop * along) / x.r;
+    return Pair{-w * w * a * x.r * (1.0 - r2) - divergence / rho, 0.0};
+  };
+  return problem;
+}
+
+MotionErrors manufactured(ElasticProblem problem, int cells, const Numerics& numerics) {
+  const double cell = problem.width / cells;
+  // what does not vary along z needs no more than two cells
+  if (!problem.traction) problem.height = 2.0 * cell;
+  return follow(problem, cell, 4.0 * problem.shape_time, numerics);
+}
+
+}  // namespace isotach::bench
