@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/mpm_problems/breathing_cylinder.hpp"
+#include "bench/mpm_problems/elastic_bar.hpp"
+#include "bench/mpm_problems/manufactured_cylinder.hpp"
 #include "bench/mpm_problems/section.hpp"
+#include "bench/mpm_problems/self_weight_column.hpp"
 
 namespace {
 
@@ -14,7 +18,9 @@ using isotach::bench::Section;
 
 /// The problems in the order of the report.
 const std::vector<std::function<Section()>>& problems() {
-  static const std::vector<std::function<Section()>> all{};
+  static const std::vector<std::function<Section()>> all{
+      isotach::bench::elastic_bar_section, isotach::bench::self_weight_column_section,
+      isotach::bench::breathing_cylinder_section, isotach::bench::manufactured_cylinder_section};
   return all;
 }
 

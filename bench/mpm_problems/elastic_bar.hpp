@@ -14,8 +14,9 @@ struct BarErrors {
   MotionErrors motion;     ///< over a period
   double frequency = 0.0;  ///< relative; from three periods
 };
-/// `cells` along the bar. The strain of the order 1e-6 leaves every point in its cell.
-[[nodiscard]] BarErrors elastic_bar(int cells, const Numerics& numerics);
+/// `cells` along the bar, or that and a half: its free end is then in the middle of a cell. Strains of 1e-6
+/// leave every point in its cell.
+[[nodiscard]] BarErrors elastic_bar(double cells, const Numerics& numerics);
 
 [[nodiscard]] Section elastic_bar_section();
 

@@ -1,6 +1,8 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "bench/mpm_problems/elastic_body.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -171,6 +173,20 @@ MotionErrors follow(const ElasticProblem& problem, double cell, double duration,
   result.velocity = velocity.relative();
   result.displacement = displacement.relative();
   return result;
+}
+
+std::string named(const Numerics& numerics) {
+  std::string name = numerics.averaged ? "averaged" : "points";
+  if (numerics.points != 2) name += fmt::format(", {0} x {0} a cell", numerics.points);
+  if (numerics.residual_time == 0.0)
+    name += ", plain APIC";
+  else if (std::isinf(numerics.residual_time))
+    name += ", residuals never fade";
+  else if (numerics.residual_time != Numerics{}.residual_time) {
+    name += fmt::format(", residuals fade in {:g} s", numerics.residual_time);
+  }
+  if (numerics.viscosity > 0.0) name += fmt::format(", alpha {:g}", numerics.viscosity);
+  return name;
 }
 
 double fitted_frequency(const std::vector<double>& times, const std::vector<double>& values, double guess) {

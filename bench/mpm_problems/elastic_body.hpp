@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "mpm/engine.hpp"
@@ -87,9 +88,7 @@ struct MotionErrors {
 [[nodiscard]] double fitted_frequency(const std::vector<double>& times, const std::vector<double>& values,
                                       double guess);
 
-/// Order of an error that fell from `coarse` to `fine` when the cell was halved.
-[[nodiscard]] inline double order(double coarse, double fine) {
-  return std::log2(coarse / fine);
-}
+/// How the numerics are called in the report: "points", "averaged" for what is averaged over cells.
+[[nodiscard]] std::string named(const Numerics& numerics);
 
 }  // namespace isotach::bench

@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "bench/mpm_problems/convergence.hpp"
+
 namespace isotach::bench {
 
 namespace {
@@ -106,6 +108,54 @@ MotionErrors manufactured(ElasticProblem problem, int cells, const Numerics& num
   // what does not vary along z needs no more than two cells
   if (!problem.traction) problem.height = 2.0 * cell;
   return follow(problem, cell, 4.0 * problem.shape_time, numerics);
+}
+
+Section manufactured_cylinder_section() {
+  Section section;
+  section.title = "Manufactured motions of a cylinder";
+  section.text =
+      R"(Body forces that are derived from a motion (and checked by automatic differentiation) drive a cylinder of
+R = H = 1 m over a period 4R/c from rest; numerics and errors as for the bar.
+
+- Barrel: u_r = A r sin(pi z/H) sin(w t), u_z = 0, held at z = 0 and H. Both parts of the traction at r = R,
+  2 (lambda + mu) A sin(pi z/H) s and mu A R (pi/H) cos(pi z/H) s, act on points without mass that lie on r = R.
+- Rings: u_r = A r (1 - r^2/R^2) sin(w t), u_z = 0, all sides symmetric.
+- Finite rings: the same motion at any A, with the body force of finite strain for a Cauchy stress
+  lambda ln J 1 + 2 mu ln V; since nothing turns, this is what the engine's material is.
+
+As long as points stay where they were in their cells, the order is 2, with and without averaging.)";
+  const auto sweep = [](Convergence& table, const char* name, const ElasticProblem& problem,
+                        const std::vector<int>& all) {
+    for (const bool averaged : {false, true}) {
+      for (const int cells : all) {
+        const Numerics numerics{.averaged = averaged};
+        const MotionErrors e = manufactured(problem, cells, numerics);
+        table.add({name, named(numerics)}, cells, {e.velocity, e.displacement});
+      }
+    }
+  };
+  constexpr double kSmall = 1e-6;
+  Convergence small({"motion", "numerics"}, {"velocity", "displacement"});
+  sweep(small, "barrel", barrel_problem(kSmall), {8, 16, 32, 64});
+  sweep(small, "rings", shifted_rings_problem(kSmall), {8, 16, 32, 64, 128});
+  sweep(small, "finite rings", finite_rings_problem(kSmall), {8, 16, 32, 64, 128});
+  section.tables.push_back(small.table());
+
+  Convergence large({"A", "numerics"}, {"velocity", "displacement", "crossed"});
+  const auto run = [&large](double amplitude, const Numerics& numerics) {
+    for (const int cells : {16, 32, 64, 128}) {
+      const MotionErrors e = manufactured(finite_rings_problem(amplitude), cells, numerics);
+      large.add({fmt::format("{:g}", amplitude), named(numerics)}, cells,
+                {e.velocity, e.displacement, e.crossed});
+    }
+  };
+  for (const double amplitude : {1e-3, 1e-2, 0.1}) {
+    run(amplitude, {});
+    run(amplitude, {.averaged = true});
+    run(amplitude, {.points = 4});
+  }
+  section.tables.push_back(large.table());
+  return section;
 }
 
 }  // namespace isotach::bench

@@ -1,11 +1,11 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "bench/mpm_problems/self_weight_column.hpp"
 
-#include <fmt/format.h>
-
 #include <map>
 #include <numbers>
 #include <stdexcept>
+
+#include "bench/mpm_problems/convergence.hpp"
 
 namespace isotach::bench {
 
@@ -91,6 +91,34 @@ ColumnErrors self_weight_column(int cells, double strain, ColumnStart start, con
   }
   errors.crossed /= count;
   return errors;
+}
+
+Section self_weight_column_section() {
+  Section section;
+  section.title = "Column under its own weight";
+  section.text =
+      R"(A column of H = 1 m, confined across, on a rough base: the nominal axial stress is -rho0 g (H - Z), which
+here is Cauchy's too, and the stretch exp(-rho0 g (H - Z)/M) since the material is linear in the logarithmic strain. It
+settles, or is put in equilibrium, with a constant viscosity of 0.9 rho c H until velocities have fallen to 1e-8. Errors
+are roots of mean squares over points, of stress over rho g H, of displacement over the largest.)";
+  Convergence small({"start", "numerics"},
+                    {"stress of points", "that acts", "mean of cells", "displacement"});
+  Convergence large({"start", "numerics"},
+                    {"stress of points", "that acts", "mean of cells", "displacement"});
+  const auto sweep = [](Convergence& table, double strain, ColumnStart start, const Numerics& numerics) {
+    for (const int cells : {8, 16, 32, 64}) {
+      const ColumnErrors e = self_weight_column(cells, strain, start, numerics);
+      table.add({start == ColumnStart::unstrained ? "settles" : "in equilibrium", named(numerics)}, cells,
+                {e.stress, e.acting_stress, e.cell_stress, e.displacement});
+    }
+  };
+  for (const ColumnStart start : {ColumnStart::unstrained, ColumnStart::in_equilibrium}) {
+    for (const bool averaged : {false, true}) sweep(small, 1e-6, start, {.averaged = averaged});
+  }
+  for (const bool averaged : {false, true})
+    sweep(large, 0.2, ColumnStart::unstrained, {.averaged = averaged});
+  section.tables = {small.table(), large.table()};
+  return section;
 }
 
 }  // namespace isotach::bench
