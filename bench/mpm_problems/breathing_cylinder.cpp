@@ -55,8 +55,7 @@ Section breathing_cylinder_section() {
       R"(u_r = a J1(k r) sin(w t), nothing along the axis; kR is the smallest root of
 kR J0(kR) = [(1 - 2 nu)/(1 - nu)] J1(kR), which leaves the surface free, and w = k sqrt((lambda + 2 mu)/rho). R = 1 m,
 a = 1e-6 m; numerics and errors as for the bar. The axis and the hoop terms enter here. The order is 2 with and without
-averaging, also close to incompressibility; the average's larger error is that of a coarser operator (the trace is seen
-over two cells), not of another order.)";
+averaging, also close to incompressibility. The average makes the error larger: it sees tr D over two cells.)";
   Convergence table({"numerics", "nu"}, {"velocity", "displacement", "frequency"});
   for (const double poisson : {0.3, 0.49}) {
     for (const bool averaged : {false, true}) {

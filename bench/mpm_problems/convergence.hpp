@@ -19,11 +19,13 @@ namespace isotach::bench {
 /// A table of errors: a row for each number of cells, with the order since the row before.
 class Convergence {
  public:
-  /// Names of what is chosen, the first columns of the table, and of the errors, the last.
-  Convergence(std::vector<std::string> choices, std::vector<std::string> errors);
+  /// Names of what is chosen, the first columns of the table, of the errors, and of what has no order.
+  Convergence(std::vector<std::string> choices, std::vector<std::string> errors,
+              std::vector<std::string> remarks = {});
 
   /// The next row. Orders start anew where the choices differ from those of the row before.
-  void add(const std::vector<std::string>& choices, double cells, const std::vector<double>& errors);
+  void add(const std::vector<std::string>& choices, double cells, const std::vector<double>& errors,
+           const std::vector<std::string>& remarks = {});
   [[nodiscard]] const SectionTable& table() const { return table_; }
 
  private:

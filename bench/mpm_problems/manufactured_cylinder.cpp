@@ -123,7 +123,15 @@ R = H = 1 m over a period 4R/c from rest; numerics and errors as for the bar.
 - Finite rings: the same motion at any A, with the body force of finite strain for a Cauchy stress
   lambda ln J 1 + 2 mu ln V; since nothing turns, this is what the engine's material is.
 
-As long as points stay where they were in their cells, the order is 2, with and without averaging.)";
+First table, A = 1e-6: as long as points stay where they were in their cells, the order is 2, with and without averaging.
+
+Second table, finite rings at larger A (the largest displacement is 0.38 A; `crossed` is the largest part of the points
+that was outside of the cell it started in). The order is lost before any point crosses: moved by part of a cell, a
+cell's points no longer cancel the spline's third moments (see the column), which leaves strains in proportion to u'' times
+the displacement, whatever the cell. With three nodes a direction the only gradient without such moments is the
+spline's own. Once most points have crossed, errors of displacement fall with h or more slowly, and those of velocity
+do not fall; what the grid cannot hold has no part in that, plain APIC does no better. More points a cell make all of
+them smaller. The larger error of averaging hides them in coarse cells.)";
   const auto sweep = [](Convergence& table, const char* name, const ElasticProblem& problem,
                         const std::vector<int>& all) {
     for (const bool averaged : {false, true}) {
@@ -141,12 +149,12 @@ As long as points stay where they were in their cells, the order is 2, with and 
   sweep(small, "finite rings", finite_rings_problem(kSmall), {8, 16, 32, 64, 128});
   section.tables.push_back(small.table());
 
-  Convergence large({"A", "numerics"}, {"velocity", "displacement", "crossed"});
+  Convergence large({"A", "numerics"}, {"velocity", "displacement"}, {"crossed"});
   const auto run = [&large](double amplitude, const Numerics& numerics) {
     for (const int cells : {16, 32, 64, 128}) {
       const MotionErrors e = manufactured(finite_rings_problem(amplitude), cells, numerics);
-      large.add({fmt::format("{:g}", amplitude), named(numerics)}, cells,
-                {e.velocity, e.displacement, e.crossed});
+      large.add({fmt::format("{:g}", amplitude), named(numerics)}, cells, {e.velocity, e.displacement},
+                {fmt::format("{:.2f}", e.crossed)});
     }
   };
   for (const double amplitude : {1e-3, 1e-2, 0.1}) {
@@ -154,6 +162,7 @@ As long as points stay where they were in their cells, the order is 2, with and 
     run(amplitude, {.averaged = true});
     run(amplitude, {.points = 4});
   }
+  run(0.1, {.residual_time = 0.0});
   section.tables.push_back(large.table());
   return section;
 }

@@ -100,23 +100,39 @@ Section self_weight_column_section() {
       R"(A column of H = 1 m, confined across, on a rough base: the nominal axial stress is -rho0 g (H - Z), which
 here is Cauchy's too, and the stretch exp(-rho0 g (H - Z)/M) since the material is linear in the logarithmic strain. It
 settles, or is put in equilibrium, with a constant viscosity of 0.9 rho c H until velocities have fallen to 1e-8. Errors
-are roots of mean squares over points, of stress over rho g H, of displacement over the largest.)";
+are roots of mean squares over points, of stress over rho g H, of displacement over the largest.
+
+First table, strains of 1e-6. Displacements are of second order. The stress of a single point is of first order when the
+column has settled: the rate that a point sees, (4/h^2) sum N d v, is exact for linear fields only, and the third moment of
+the spline at the points, +-3/64 h^3, makes strains of +-6/64 h u'' that alternate from point to point. Nodes are blind to
+them, so neither motion nor force loses an order, and the mean of a cell's points is free of them. Put in equilibrium, the
+column never gets them. What remains then is an error of first order in the cells next to base and surface: 3/2 in the
+mean square.
+
+Second table, rho g H = 0.2 M: the points have moved through the grid, by up to a tenth of the height, and are packed
+more closely below. The spline's moments over points that no longer lie regularly are off by a part that depends on the
+strain but not on the cell size: the stress error stays, at 0.2 to 0.3 % of the stress at the base, and displacements
+fall to the first order. More points a cell push that floor down.)";
   Convergence small({"start", "numerics"},
                     {"stress of points", "that acts", "mean of cells", "displacement"});
   Convergence large({"start", "numerics"},
                     {"stress of points", "that acts", "mean of cells", "displacement"});
-  const auto sweep = [](Convergence& table, double strain, ColumnStart start, const Numerics& numerics) {
-    for (const int cells : {8, 16, 32, 64}) {
+  // the number of steps to rest grows with the square of the number of cells
+  const auto sweep = [](Convergence& table, double strain, ColumnStart start, const Numerics& numerics,
+                        int finest) {
+    for (int cells = 8; cells <= finest; cells *= 2) {
       const ColumnErrors e = self_weight_column(cells, strain, start, numerics);
       table.add({start == ColumnStart::unstrained ? "settles" : "in equilibrium", named(numerics)}, cells,
                 {e.stress, e.acting_stress, e.cell_stress, e.displacement});
     }
   };
   for (const ColumnStart start : {ColumnStart::unstrained, ColumnStart::in_equilibrium}) {
-    for (const bool averaged : {false, true}) sweep(small, 1e-6, start, {.averaged = averaged});
+    for (const bool averaged : {false, true}) sweep(small, 1e-6, start, {.averaged = averaged}, 32);
   }
-  for (const bool averaged : {false, true})
-    sweep(large, 0.2, ColumnStart::unstrained, {.averaged = averaged});
+  for (const bool averaged : {false, true}) {
+    sweep(large, 0.2, ColumnStart::unstrained, {.averaged = averaged}, 64);
+  }
+  sweep(large, 0.2, ColumnStart::unstrained, {.points = 4}, 32);
   section.tables = {small.table(), large.table()};
   return section;
 }
