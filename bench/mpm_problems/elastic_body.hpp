@@ -22,7 +22,7 @@ struct ElasticConstants {
     return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
   }
   [[nodiscard]] double bulk() const { return lame() + 2.0 / 3.0 * shear(); }    ///< K (Pa)
-  [[nodiscard]] double wave_modulus() const { return lame() + 2.0 * shear(); }  /// M = K + 4/3 G (Pa)
+  [[nodiscard]] double wave_modulus() const { return lame() + 2.0 * shear(); }  ///< M = K + 4/3 G (Pa)
   [[nodiscard]] double wave_speed() const { return std::sqrt(wave_modulus() / density); }  ///< m/s
 };
 
@@ -49,8 +49,8 @@ using Field = std::function<Pair(Pair place, double time)>;
 struct ElasticProblem {
   mpm::Symmetry symmetry = mpm::Symmetry::axisymmetric;
   mpm::Sides sides;
-  double width = 1.0;       ///< m; whole cells
-  double height = 1.0;      ///< m; whole cells
+  double width = 1.0;       ///< m; whole spacings of points
+  double height = 1.0;      ///< m; whole spacings of points
   double open_right = 0.0;  ///< cells of the grid beyond the body
   ElasticConstants material;
   Field displacement;       ///< m; zero at time 0

@@ -26,7 +26,7 @@ struct ColumnErrors {
 
 /// H = 1 m, confined across, on a rough base; `strain` = rho g H/M. The nominal axial stress is
 /// -rho0 g (H - Z), the stretch, since the material is linear in ln J, exp(-rho0 g (H - Z)/M). Velocities are
-/// damped until they have fallen to 1e-8.
+/// damped until they have fallen to 1e-8, by a viscosity of its own; `numerics.viscosity` has no say.
 [[nodiscard]] ColumnErrors self_weight_column(int cells, double strain, ColumnStart start,
                                               const Numerics& numerics);
 
