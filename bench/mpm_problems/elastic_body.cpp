@@ -118,7 +118,7 @@ Body elastic_box(double width, double height, double cell, mpm::Symmetry symmetr
   q.omega[1] = q.z;
   body.material = elastic(material);
   body.density = material.density;
-  body.artificial_viscosity = numerics.viscosity * material.density * material.wave_speed() * cell;
+  body.viscosity = numerics.viscosity * material.density * material.wave_speed() * cell;
   body.averaged = numerics.averaged;
   return body;
 }

@@ -54,9 +54,9 @@ ColumnErrors self_weight_column(int cells, double strain, ColumnStart start, con
   if (start == ColumnStart::in_equilibrium) put_in_equilibrium(body.particles, column, material);
   // the first mode, of wave number pi/2, is damped nearly critically; with eta as large as that the number of
   // steps to rest does not depend on it
-  body.artificial_viscosity = 0.9 * material.density * speed;
+  body.viscosity = 0.9 * material.density * speed;
   const double decay =
-      4.0 / 3.0 * body.artificial_viscosity * std::pow(0.5 * std::numbers::pi, 2) / (2.0 * material.density);
+      4.0 / 3.0 * body.viscosity * std::pow(0.5 * std::numbers::pi, 2) / (2.0 * material.density);
   const double duration = 8.0 * std::numbers::ln10 / decay;
   engine.add(std::move(body));
   while (engine.time() < duration) {
