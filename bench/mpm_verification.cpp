@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "bench/mpm_problems/breathing_cylinder.hpp"
+#include "bench/mpm_problems/closed_box.hpp"
 #include "bench/mpm_problems/elastic_bar.hpp"
 #include "bench/mpm_problems/manufactured_cylinder.hpp"
 #include "bench/mpm_problems/section.hpp"
 #include "bench/mpm_problems/self_weight_column.hpp"
+#include "bench/mpm_problems/undrained_column.hpp"
+#include "bench/mpm_problems/yield_stress_flow.hpp"
 
 namespace {
 
@@ -18,9 +21,14 @@ using isotach::bench::Section;
 
 /// The problems in the order of the report.
 const std::vector<std::function<Section()>>& problems() {
-  static const std::vector<std::function<Section()>> all{
-      isotach::bench::elastic_bar_section, isotach::bench::self_weight_column_section,
-      isotach::bench::breathing_cylinder_section, isotach::bench::manufactured_cylinder_section};
+  static const std::vector<std::function<Section()>> all{isotach::bench::elastic_bar_section,
+                                                         isotach::bench::self_weight_column_section,
+                                                         isotach::bench::breathing_cylinder_section,
+                                                         isotach::bench::manufactured_cylinder_section,
+                                                         isotach::bench::undrained_section,
+                                                         isotach::bench::locking_section,
+                                                         isotach::bench::slump_section,
+                                                         isotach::bench::spread_section};
   return all;
 }
 
