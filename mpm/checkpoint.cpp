@@ -12,7 +12,7 @@ namespace isotach::mpm {
 
 namespace {
 
-constexpr std::string_view kMagic = "isotach slump checkpoint 1\n";
+constexpr std::string_view kMagic = "isotach slump checkpoint 2\n";
 
 /// FNV-1a.
 std::uint64_t hash_of(std::string_view bytes) {
@@ -27,7 +27,7 @@ std::uint64_t hash_of(std::string_view bytes) {
 }  // namespace
 
 std::uint64_t run_key(const model::Parameters<double>& parameters, const SlumpSetup& setup, bool history,
-                      bool snapshots) {
+                      bool snapshots, std::size_t frames) {
   Archive archive;
   SlumpSetup copy = setup;
   for (const model::ParameterInfo& parameter : model::kParameterTable) {
@@ -63,6 +63,7 @@ std::uint64_t run_key(const model::Parameters<double>& parameters, const SlumpSe
   archive(copy.times);
   archive(history);
   archive(snapshots);
+  archive(frames);
   return hash_of(archive.bytes() + ISOTACH_VERSION);
 }
 

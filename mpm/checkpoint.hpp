@@ -2,6 +2,7 @@
 // A slump run on disk, halfway.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,7 +17,7 @@ namespace isotach::mpm {
 /// What a run is made of, as a number: parameters, setup, what is recorded and the version of the program.
 /// Equal for equal runs.
 [[nodiscard]] std::uint64_t run_key(const model::Parameters<double>& parameters, const SlumpSetup& setup,
-                                    bool history, bool snapshots);
+                                    bool history, bool snapshots, std::size_t frames);
 
 /// Writes the state of the run with that key, first to a temporary name. Returns whether it could.
 [[nodiscard]] bool write_checkpoint(const std::filesystem::path& file, std::uint64_t key,

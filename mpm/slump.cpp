@@ -1,6 +1,7 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "mpm/slump.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <system_error>
@@ -34,13 +35,20 @@ double energy(const HistoryRow& row) {
   return row.kinetic + row.potential + row.stress_work + row.boundary_work;
 }
 
+/// Takes a frame where one is due: the first of `times` after the last frame's has been reached.
+void take_frame(const SlumpRun& run, const std::vector<double>& times, std::vector<Frame>& frames) {
+  const auto due =
+      frames.empty() ? times.begin() : std::upper_bound(times.begin(), times.end(), frames.back().time);
+  if (due != times.end() && *due <= run.time()) frames.push_back(run.frame());
+}
+
 /// Keeps a run's state on disk, now and then.
 class Keeper {
  public:
   Keeper(const model::Parameters<double>& parameters, const SlumpSetup& setup, const RunOptions& options)
       : file_(options.checkpoint),
         interval_(options.checkpoint_interval),
-        key_(run_key(parameters, setup, options.history, options.snapshots)) {}
+        key_(run_key(parameters, setup, options.history, options.snapshots, options.frames)) {}
 
   /// Goes on from what is on disk. Returns whether there was something.
   [[nodiscard]] bool resume(SlumpRun& run, SlumpResult& result, std::size_t& target) const {
@@ -97,6 +105,7 @@ tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double
   result.points = run.particles().count;
   const HistoryRow start = run.history_row();
   const double outline_volume_0 = run.outline().volume();
+  const std::vector<double> frames = frame_times(setup.times.back(), options.frames);
   const std::vector<double> targets = options.history ? history_times(setup.times) : setup.times;
   Keeper keeper(parameters, setup, options);
   std::size_t next = 0;
@@ -109,6 +118,7 @@ tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double
         keeper.write();
         return tl::unexpected(*failure);
       }
+      take_frame(run, frames, result.frames);
       if (run.steps() % kStepsBetweenChecks != 0) continue;
       keeper.remember(run, result, next);
       if (options.stop != nullptr && options.stop->load()) {
@@ -138,6 +148,7 @@ tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double
       result.outline_volume_error =
           std::max(result.outline_volume_error, std::abs(outline.volume() / outline_volume_0 - 1.0));
       if (options.snapshots) result.snapshots.push_back(run.snapshot());
+      if (options.frames > 0) result.fields.push_back(run.frame());
     }
   }
   keeper.drop();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/parameters.hpp"
+#include "mpm/field_map.hpp"
 #include "mpm/outline.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/slump_setup.hpp"
@@ -64,6 +65,8 @@ struct SlumpResult {
   std::size_t points = 0;
   std::vector<Outline> outlines;    ///< at the times asked for
   std::vector<Snapshot> snapshots;  ///< likewise, if asked for
+  std::vector<Frame> fields;        ///< likewise, if frames are asked for
+  std::vector<Frame> frames;        ///< of an animation, if asked for
   std::vector<HistoryRow> history;
   double volume_error = 0.0;          ///< largest relative change of the points' volume
   double outline_volume_error = 0.0;  ///< largest relative difference of the outlines' volume from the start
@@ -78,6 +81,8 @@ struct SlumpResult {
   void visit(Archive& archive) {
     archive(outlines);
     archive(snapshots);
+    archive(fields);
+    archive(frames);
     archive(history);
     archive(volume_error);
     archive(outline_volume_error);
@@ -97,6 +102,9 @@ struct SlumpFailure {
 struct RunOptions {
   bool snapshots = false;
   bool history = true;  ///< rows between the output times as well
+  /// Frames wanted of an animation, at frame_times(); those of times that one step passes are one. A frame is
+  /// taken after the step that reaches its time and so changes nothing in the run.
+  std::size_t frames = 0;
   /// Called now and then with the time reached (s) and the part of the work that is done, judged by the steps
   /// that are left at the length they have.
   std::function<void(double time, double done)> progress;

@@ -1,6 +1,7 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "mpm/slump_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -136,16 +137,38 @@ Snapshot SlumpRun::snapshot() const {
   const Particles& q = particles();
   s.pore_pressure.reserve(q.count);
   s.overconsolidation_ratio.reserve(q.count);
+  s.strain_rate_norm.reserve(q.count);
   for (std::size_t i = 0; i < q.count; ++i) {
-    // the averaged pressure is the one that acts
-    s.pore_pressure.push_back(engine_.total_pressure(0, i) - q.mean_effective_pressure(i));
-    s.overconsolidation_ratio.push_back(mud_->law().overconsolidation_ratio(q.state(i)));
-    const double hoop = q.grid_velocity_r[i] / q.r[i];
-    const double shear = 0.5 * (q.l_rz[i] + q.l_zr[i]);
-    s.strain_rate_norm.push_back(
-        std::sqrt(q.l_rr[i] * q.l_rr[i] + q.l_zz[i] * q.l_zz[i] + hoop * hoop + 2.0 * shear * shear));
+    const PointFields fields = point_fields(i);
+    s.pore_pressure.push_back(fields.pore_pressure);
+    s.overconsolidation_ratio.push_back(fields.overconsolidation_ratio);
+    s.strain_rate_norm.push_back(fields.strain_rate_norm);
   }
   return s;
+}
+
+Frame SlumpRun::frame() const {
+  const Particles& q = particles();
+  double width = 0.0;
+  double height = 0.0;
+  for (std::size_t i = 0; i < q.count; ++i) {
+    width = std::max(width, q.r[i]);
+    height = std::max(height, q.z[i]);
+  }
+  // a cell more, for the outer halves of the outermost points
+  FieldSums sums(cell_size(), width + cell_size(), height + cell_size());
+  for (std::size_t i = 0; i < q.count; ++i) sums.add(q.r[i], q.z[i], q.volume(i), point_fields(i));
+  return {time(), setup_.mould.rim(time()), sums.map(), outline()};
+}
+
+PointFields SlumpRun::point_fields(std::size_t i) const {
+  const Particles& q = particles();
+  const double hoop = q.grid_velocity_r[i] / q.r[i];
+  const double shear = 0.5 * (q.l_rz[i] + q.l_zr[i]);
+  return {std::sqrt(q.l_rr[i] * q.l_rr[i] + q.l_zz[i] * q.l_zz[i] + hoop * hoop + 2.0 * shear * shear),
+          mud_->law().overconsolidation_ratio(q.state(i)),
+          // the averaged pressure is the one that acts
+          engine_.total_pressure(0, i) - q.mean_effective_pressure(i)};
 }
 
 }  // namespace isotach::mpm

@@ -28,6 +28,7 @@ class SlumpRun {
   [[nodiscard]] Outline outline() const { return trace_outline(particles(), cell_size(), time()); }
   [[nodiscard]] HistoryRow history_row() const;
   [[nodiscard]] Snapshot snapshot() const;
+  [[nodiscard]] Frame frame() const;
 
   /// Saves or loads what steps change, of a run of the same parameters and setup.
   template <class Archive>
@@ -42,6 +43,9 @@ class SlumpRun {
   [[nodiscard]] long floored() const { return engine_.count().floored; }
 
  private:
+  /// Of point i, after the first step.
+  [[nodiscard]] PointFields point_fields(std::size_t i) const;
+
   SlumpSetup setup_;
   InitialState initial_;
   Engine engine_;

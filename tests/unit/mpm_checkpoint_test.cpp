@@ -31,6 +31,7 @@ class CheckpointTest : public testing::Test {
   [[nodiscard]] RunOptions options() const {
     RunOptions result;
     result.snapshots = true;
+    result.frames = 12;
     return result;
   }
   /// All that a run yields, as bytes.
@@ -83,14 +84,15 @@ TEST_F(CheckpointTest, ARunThatWasInterruptedGoesOnAsIfItHadNot) {
 }
 
 TEST_F(CheckpointTest, WhatBelongsToAnotherRunOrIsNotWholeIsNotUsed) {
-  const std::uint64_t key = run_key(tests::seed_mud(), setup_, true, false);
+  const std::uint64_t key = run_key(tests::seed_mud(), setup_, true, false, 0);
   ASSERT_TRUE(write_checkpoint(file_, key, "state"));
   EXPECT_EQ(read_checkpoint(file_, key), "state");
   SlumpSetup other = setup_;
   other.mould.lift_delay = 1e-9;
-  EXPECT_NE(run_key(tests::seed_mud(), other, true, false), key);
-  EXPECT_NE(run_key(tests::seed_mud(), setup_, false, false), key);
-  EXPECT_FALSE(read_checkpoint(file_, run_key(tests::seed_mud(), other, true, false)).has_value());
+  EXPECT_NE(run_key(tests::seed_mud(), other, true, false, 0), key);
+  EXPECT_NE(run_key(tests::seed_mud(), setup_, false, false, 0), key);
+  EXPECT_NE(run_key(tests::seed_mud(), setup_, true, false, 60), key);
+  EXPECT_FALSE(read_checkpoint(file_, run_key(tests::seed_mud(), other, true, false, 0)).has_value());
   EXPECT_FALSE(read_checkpoint(folder_ / "none", key).has_value());
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) - 1);
   EXPECT_FALSE(read_checkpoint(file_, key).has_value());
