@@ -9,6 +9,8 @@
 #include "datasets/slump_file.hpp"
 #include "mpm/slump.hpp"
 #include "reports/curves_csv.hpp"
+#include "reports/field_animation.hpp"
+#include "reports/field_csv.hpp"
 #include "reports/particles_vtu.hpp"
 #include "reports/result_json.hpp"
 #include "reports/slump_report.hpp"
@@ -18,6 +20,8 @@ namespace isotach::app {
 
 namespace {
 
+constexpr std::size_t kFrames = 60;  // of the animation
+
 int slump(const CommonOptions& options) {
   const Run run("slump", options.input);
   const datasets::SlumpFile test = datasets::read_slump_file(options.input, options.read_options());
@@ -25,6 +29,7 @@ int slump(const CommonOptions& options) {
   reports::Progress progress("slump", options.quiet);
   mpm::RunOptions run_options;
   run_options.snapshots = true;
+  run_options.frames = kFrames;
   run_options.stop = &interrupted();
   run_options.progress = [&](double time, double done) {
     progress.update(done, fmt::format("t = {:.3f} s", time));
@@ -46,6 +51,10 @@ int slump(const CommonOptions& options) {
   const reports::RunInfo info = run.info();
   output.write_text("report.html", reports::slump_report(info, test, *result).html());
   reports::write_curves(output, *result);
+  reports::write_fields(output, result->fields);
+  output.write_text(
+      "animation.svg",
+      reports::field_animation(reports::FieldQuantity::strain_rate_norm, result->frames, setup.mould).svg);
   reports::write_particles(output, result->snapshots);
   output.write_json("result.json", reports::result_json(run.info(), test, *result));
   return end_done(output, options.quiet);

@@ -152,11 +152,11 @@ Frame SlumpRun::frame() const {
   double width = 0.0;
   double height = 0.0;
   for (std::size_t i = 0; i < q.count; ++i) {
-    width = std::max(width, q.r[i]);
-    height = std::max(height, q.z[i]);
+    const double half = 0.5 * std::sqrt(q.volume(i) / q.r[i]);  // of a point's square
+    width = std::max(width, q.r[i] + half);
+    height = std::max(height, q.z[i] + half);
   }
-  // a cell more, for the outer halves of the outermost points
-  FieldSums sums(cell_size(), width + cell_size(), height + cell_size());
+  FieldSums sums(cell_size(), width, height);
   for (std::size_t i = 0; i < q.count; ++i) sums.add(q.r[i], q.z[i], q.volume(i), point_fields(i));
   return {time(), setup_.mould.rim(time()), sums.map(), outline()};
 }

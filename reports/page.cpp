@@ -91,12 +91,30 @@ data cells_of(const std::vector<std::string>& texts, const std::vector<Alignment
   return cells;
 }
 
+/// The pictures in the same order, those that are figures drawn, in one run of gnuplot.
+std::vector<Drawing> drawn(const std::vector<std::variant<Figure, Drawing>>& pictures) {
+  std::vector<Figure> figures;
+  for (const auto& picture : pictures) {
+    if (const auto* figure = std::get_if<Figure>(&picture)) figures.push_back(*figure);
+  }
+  std::vector<std::string> svgs = render_svgs(figures);
+  std::vector<Drawing> drawings;
+  std::size_t next = 0;
+  for (const auto& picture : pictures) {
+    if (const auto* figure = std::get_if<Figure>(&picture)) {
+      drawings.push_back({std::move(svgs[next++]), figure->caption});
+    } else {
+      drawings.push_back(std::get<Drawing>(picture));
+    }
+  }
+  return drawings;
+}
+
 }  // namespace
 
 /// Turns blocks into what the template expects, numbering tables and figures on the way.
 struct Page::Renderer {
-  const std::vector<Figure>& figures;
-  std::vector<std::string> svgs;
+  std::vector<Drawing> pictures;
   int tables = 0;
 
   data operator()(const Heading& block) const {
@@ -132,8 +150,8 @@ struct Page::Renderer {
     for (std::size_t i = row.first; i < row.first + row.count; ++i) {
       data item;
       item.set("number", fmt::format("{}", i + 1));
-      item.set("svg", svgs[i]);
-      item.set("caption", figures[i].caption);
+      item.set("svg", pictures[i].svg);
+      item.set("caption", pictures[i].caption);
       items.push_back(item);
     }
     data content;
@@ -218,15 +236,20 @@ void Page::table(Table table) {
 }
 
 void Page::figure(Figure figure) {
-  figures_.push_back(std::move(figure));
-  add(FigureRow{figures_.size() - 1, 1});
+  pictures_.push_back(std::move(figure));
+  add(FigureRow{pictures_.size() - 1, 1});
+}
+
+void Page::drawing(Drawing drawing) {
+  pictures_.push_back(std::move(drawing));
+  add(FigureRow{pictures_.size() - 1, 1});
 }
 
 void Page::figures(Figure left, Figure right) {
   left.width = right.width = FigureWidth::half;
-  figures_.push_back(std::move(left));
-  figures_.push_back(std::move(right));
-  add(FigureRow{figures_.size() - 2, 2, true});
+  pictures_.push_back(std::move(left));
+  pictures_.push_back(std::move(right));
+  add(FigureRow{pictures_.size() - 2, 2, true});
 }
 
 void Page::figures(std::vector<Figure> figures) {
@@ -234,9 +257,9 @@ void Page::figures(std::vector<Figure> figures) {
     const std::size_t count = std::min<std::size_t>(2, figures.size() - i);
     for (std::size_t k = i; k < i + count; ++k) {
       figures[k].width = FigureWidth::half;
-      figures_.push_back(std::move(figures[k]));
+      pictures_.push_back(std::move(figures[k]));
     }
-    add(FigureRow{figures_.size() - count, count, true});
+    add(FigureRow{pictures_.size() - count, count, true});
   }
 }
 
@@ -249,7 +272,7 @@ void Page::preformatted(std::string text) {
 }
 
 std::string Page::html() const {
-  Renderer renderer{figures_, render_svgs(figures_)};
+  Renderer renderer{drawn(pictures_)};
   data page;
   page.set("title", title_);
   page.set("subtitle", unless_empty(subtitle_));

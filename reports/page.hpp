@@ -28,6 +28,12 @@ struct Table {
 /// How a verdict or a box is meant; said by a sign and a colour.
 enum class Tone { plain, good, warning, bad };
 
+/// A picture that is SVG already: one `<svg>` element that scales with the page, without ids.
+struct Drawing {
+  std::string svg{};
+  std::string caption{};  ///< below it on the page
+};
+
 /// Collects a report in reading order and writes it as HTML without scripts or anything outside of the page.
 /// The same calls give the same bytes. All text is UTF-8, taken literally and escaped. What is added before
 /// the first section() belongs to the summary, which has the first printed page to itself if sections follow.
@@ -51,6 +57,8 @@ class Page {
   void table(Table table);
   /// A figure across the page, numbered with all others in reading order.
   void figure(Figure figure);
+  /// A drawing across the page, numbered with the figures.
+  void drawing(Drawing drawing);
   /// Two figures side by side, made FigureWidth::half.
   void figures(Figure left, Figure right);
   /// Figures two by two; of an odd number the last one has a row for itself, as wide as the others.
@@ -78,7 +86,7 @@ class Page {
     std::string text;
   };
   struct FigureRow {
-    std::size_t first;  // in figures_
+    std::size_t first;  // in pictures_
     std::size_t count;
     bool half = false;  // each as wide as half the page
   };
@@ -95,8 +103,8 @@ class Page {
   std::string subtitle_;
   std::vector<std::pair<std::string, std::string>> facts_;
   std::vector<std::pair<Tone, std::string>> verdicts_;
-  std::vector<Section> sections_;  // the first is the summary and has no heading
-  std::vector<Figure> figures_;    // in reading order
+  std::vector<Section> sections_;                        // the first is the summary and has no heading
+  std::vector<std::variant<Figure, Drawing>> pictures_;  // in reading order
 };
 
 }  // namespace isotach::reports

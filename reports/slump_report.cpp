@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/field_animation.hpp"
+#include "reports/field_figure.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/material_table.hpp"
 #include "reports/number.hpp"
@@ -22,6 +24,8 @@ constexpr double kMillimetres = 1e3;        // in a metre
 constexpr double kVolumeErrorLimit = 0.01;  // beyond these a run is not to be trusted without a word
 constexpr double kEnergyErrorLimit = 0.02;
 constexpr std::size_t kTimesShown = 7;  // as many as the palette has colours
+
+constexpr std::size_t kMapsShown = 6;
 
 constexpr double kHistoryShape = 0.9;  // height to width
 
@@ -165,6 +169,21 @@ void add_summary(Page& page, const datasets::SlumpFile& test, const SlumpResult&
                         format_number(kMillimetres * result.cell_size, 3), result.points, result.steps));
 }
 
+/// Fields at output times, and all of it in motion; nothing where the run took no frames.
+void add_fields(Page& page, const datasets::SlumpFile& test, const SlumpResult& result) {
+  if (result.fields.empty() || result.frames.empty()) return;
+  page.section("Strain rate and overconsolidation");
+  std::vector<mpm::Frame> shown;
+  for (const std::size_t k : spread_indices(result.fields.size(), kMapsShown)) {
+    shown.push_back(result.fields[k]);
+  }
+  for (const FieldQuantity quantity :
+       {FieldQuantity::strain_rate_norm, FieldQuantity::overconsolidation_ratio}) {
+    page.drawing(field_figure(quantity, shown, test.setup.mould));
+  }
+  page.drawing(field_animation(FieldQuantity::strain_rate_norm, result.frames, test.setup.mould));
+}
+
 }  // namespace
 
 Page slump_report(const RunInfo& run, const datasets::SlumpFile& test, const SlumpResult& result) {
@@ -176,6 +195,7 @@ Page slump_report(const RunInfo& run, const datasets::SlumpFile& test, const Slu
   page.section("Outlines and history");
   page.figure(outlines_figure(test, result));
   page.figures(extent_figure(result), energy_figure(result));
+  add_fields(page, test, result);
   page.section("Material, start and numerics");
   const std::vector<NamedRun> runs{{"this\u00a0run", &test.setup, &result}};
   page.table(material_table(test.material));

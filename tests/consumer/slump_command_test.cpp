@@ -26,10 +26,11 @@ TEST_F(SlumpCommand, WritesAllResults) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(ended.out + ended.err, "");
   EXPECT_EQ(everything(), (std::vector<std::string>{
-                              "new", "new/results", "new/results/history.csv", "new/results/outlines.csv",
-                              "new/results/particles", "new/results/particles.pvd",
-                              "new/results/particles/frame_001.vtu", "new/results/particles/frame_002.vtu",
-                              "new/results/report.html", "new/results/result.json", "slump.toml"}));
+                              "new", "new/results", "new/results/animation.svg", "new/results/fields.csv",
+                              "new/results/history.csv", "new/results/outlines.csv", "new/results/particles",
+                              "new/results/particles.pvd", "new/results/particles/frame_001.vtu",
+                              "new/results/particles/frame_002.vtu", "new/results/report.html",
+                              "new/results/result.json", "slump.toml"}));
 
   const json written = result("new/results");
   EXPECT_EQ(written.at("command"), "slump");
@@ -57,6 +58,8 @@ TEST_F(SlumpCommand, WritesAllResults) {
   };
   begins("outlines.csv", "time_s,r_mm,z_mm\n0.1,");
   begins("history.csv", "time_s,height_mm,toe_mm,kinetic_J,");
+  begins("fields.csv", "time_s,r_mm,z_mm,strain_rate_per_s,ocr,pore_pressure_kPa\n0.1,");
+  begins("animation.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" ");
   begins("particles/frame_001.vtu", "<?xml");
   const std::string frames = content_of(folder() / "new/results/particles.pvd");
   for (const char* name : {"particles/frame_001.vtu", "particles/frame_002.vtu"}) {
@@ -88,7 +91,7 @@ TEST_F(SlumpCommand, SameInputGivesTheSameBytesButForTheSeconds) {
     EXPECT_EQ(first, second) << name;
     ++compared;
   }
-  EXPECT_EQ(compared, 7);
+  EXPECT_EQ(compared, 9);
 }
 
 TEST_F(SlumpCommand, FilesOfOthersInTheOutFolderAreLeftAlone) {

@@ -35,7 +35,26 @@ TEST(SlumpReport, ShowsOneRun) {
   const mpm::Outline& last = short_slump().outlines.back();
   expect_parts(html, {"Slump test, simulated", "smooth wall", "Imbalance",
                       format_number(1e3 * last.height()).c_str(), format_number(1e3 * last.toe()).c_str()});
-  EXPECT_EQ(count(html, "<svg "), 3U);  // outlines, height and toe, energies
+  EXPECT_EQ(count(html, "<svg "), 6U);  // outlines, height and toe, energies; |D|, OCR, in motion
+}
+
+TEST(SlumpReport, ShowsFieldsAndMovesWhereTheRunTookFrames) {
+  std::string html = slump_report(run_of("slump"), short_slump_test(), short_slump()).html();
+  expect_parts(html, {"Strain rate and overconsolidation", "Strain rate |D| at output times",
+                      "Overconsolidation ratio at output times", "8 s a loop", "<b>Figure 6.</b>"});
+  const auto count = [&](std::string_view text) {
+    std::size_t found = 0;
+    for (std::size_t at = html.find(text); at != std::string::npos; at = html.find(text, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("class=\"panel\""), 2U * short_slump_test().setup.times.size());
+  EXPECT_EQ(count("class=\"frame\""), 10U);
+  mpm::SlumpResult plain = short_slump();
+  plain.frames.clear();
+  plain.fields.clear();
+  html = slump_report(run_of("slump"), short_slump_test(), plain).html();
+  EXPECT_EQ(count("data:image"), 0U);
+  EXPECT_EQ(count("Strain rate and overconsolidation"), 0U);
 }
 
 TEST(SlumpReport, WarnsOfBudgetsThatDoNotClose) {

@@ -114,6 +114,23 @@ TEST(Page, NumbersFiguresAndTablesOnTheWay) {
   EXPECT_FALSE(has(html, "Table 3"));
 }
 
+TEST(Page, PutsDrawingsAmongFigures) {
+  Page page("t", "s");
+  page.drawing({"<svg class=\"drawn\"/>", "caption-one"});
+  page.figure(small_figure("caption-two"));
+  page.drawing({"<svg class=\"drawn\"/>", "caption-three"});
+  const std::string html = page.html();
+  const std::size_t first = html.find("class=\"drawn\"");
+  const std::size_t plotted = html.find("<svg viewBox");
+  const std::size_t last = html.rfind("class=\"drawn\"");
+  ASSERT_NE(plotted, std::string::npos);
+  EXPECT_LT(first, html.find("<b>Figure 1.</b> caption-one"));
+  EXPECT_LT(html.find("<b>Figure 1.</b> caption-one"), plotted);
+  EXPECT_LT(plotted, html.find("<b>Figure 2.</b> caption-two"));
+  EXPECT_LT(html.find("<b>Figure 2.</b> caption-two"), last);
+  EXPECT_LT(last, html.find("<b>Figure 3.</b> caption-three"));
+}
+
 TEST(Page, AlignsColumns) {
   Page page("t", "s");
   page.table({.header = {"a", "b", "c"},

@@ -85,6 +85,7 @@ inline const mpm::SlumpResult& short_slump() {
   static const mpm::SlumpResult result = [] {
     mpm::RunOptions options;
     options.snapshots = true;
+    options.frames = 10;
     return mpm::run_slump(short_slump_test().material, short_slump_test().setup, options).value();
   }();
   return result;
