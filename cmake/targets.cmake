@@ -9,6 +9,8 @@ target_compile_options(isotach_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-may
 if(ISOTACH_NATIVE)
   target_compile_options(isotach_flags INTERFACE -march=native)
 endif()
+# Octets are passed by value between functions that are always inlined, so their ABI does not matter (mpm/octet.hpp).
+target_compile_options(isotach_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 # Results do not depend on errno, nor on traps; nothing else of -ffast-math is allowed, so NaN stays NaN.
 target_compile_options(isotach_flags INTERFACE -fno-math-errno -fno-trapping-math)
 if(ISOTACH_DEVELOPER)
