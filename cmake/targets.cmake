@@ -8,9 +8,10 @@ target_compile_options(isotach_flags INTERFACE -Wall -Wextra -Wconversion -Wshad
 target_compile_options(isotach_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 if(ISOTACH_NATIVE)
   target_compile_options(isotach_flags INTERFACE -march=native)
+else()
+  # octets are passed by value between functions that are always inlined, so their ABI does not matter (mpm/octet.hpp)
+  target_compile_options(isotach_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 endif()
-# Octets are passed by value between functions that are always inlined, so their ABI does not matter (mpm/octet.hpp).
-target_compile_options(isotach_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 # Results do not depend on errno, nor on traps; nothing else of -ffast-math is allowed, so NaN stays NaN.
 target_compile_options(isotach_flags INTERFACE -fno-math-errno -fno-trapping-math)
 if(ISOTACH_DEVELOPER)
