@@ -97,11 +97,11 @@ mpm::Numerics read_numerics(TomlTable& root) {
   auto numerics = root.table_if("numerics");
   if (!numerics) return result;
   if (const auto size = numerics->number_if("cell_size_mm", kLength_mm)) result.cell_size = 1e-3 * *size;
-  if (const auto points = numerics->number_if("points_per_cell", {1.0, 100.0})) {
+  if (const auto points = numerics->number_if("points_per_cell", {4.0, 100.0})) {
     const double side = std::round(std::sqrt(*points));
     if (side * side != *points) {
       throw numerics->error("points_per_cell", fmt::format("{} is not a square number", *points),
-                            "1, 4, 9, 16, ..., 100");
+                            "4, 9, 16, ..., 100");
     }
     result.points_per_cell = static_cast<int>(*points);
   }

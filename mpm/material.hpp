@@ -9,8 +9,6 @@
 
 namespace isotach::mpm {
 
-/// Points that are moved together; a multiple of all packs.
-inline constexpr std::size_t kBlock = 64;
 /// Points whose stress is updated together: many, so that the few that need more work can share it.
 inline constexpr std::size_t kChunk = 1024;
 

@@ -23,25 +23,25 @@ void MouldContact::add(const ForceBlock& block) const {
   for (std::size_t p = 0; p < block.count; p += kOctet) {
     // most points are far from the wall: eight at a time
     const std::size_t first = block.begin + p;
-    const Octet pressure = load_octet(&q.reference_pressure[first]) + constants_.initial_pressure_shift;
-    const Octet depth =
-        load_octet(&q.r[first]) + (half_size_ - radius_) + pressure / constants_.normal_stiffness;
+    const Octet depth = load_octet(&q.r[first]) + (half_size_ - radius_) + preload(load_octet(&q.z[first]));
     const IntegerOctet near = (depth > 0.0) & (load_octet(&q.z[first]) + half_size_ > rim);
     if (!any(near)) continue;
     for (std::size_t lane = 0; lane < std::min(kOctet, block.count - p); ++lane) {
       if (near[lane] == 0) continue;
       const std::size_t i = first + lane;
-      const WallForce f = force({q.r[i], q.z[i], q.velocity_r[i], q.velocity_z[i], q.mass[i],
-                                 -block.stress_rr[p + lane], pressure[lane]},
+      // at the wall, but for points that are more than half outside
+      const double r = std::max(q.r[i], radius_);
+      const double arm = r - q.r[i];
+      const WallForce f = force({q.r[i], q.z[i], q.velocity_r[i] + arm * q.c_rr[i],
+                                 q.velocity_z[i] + arm * q.c_zr[i], q.mass[i], -block.stress_rr[p + lane]},
                                 rim, rim_velocity, block.dt);
-      block.force_r[p + lane] += f.r;
-      block.force_z[p + lane] += f.z;
+      if (f.r != 0.0 || f.z != 0.0) block.loads.add_at(r, q.z[i], f.r, f.z);
     }
   }
 }
 
 WallForce MouldContact::force(const WallPoint& point, double rim, double rim_velocity, double dt) const {
-  const double depth = point.r + half_size_ - radius_ + point.initial_pressure / constants_.normal_stiffness;
+  const double depth = point.r + half_size_ - radius_ + std::max(0.0, preload(point.z));
   const double covered = point.z + half_size_ - rim;
   // beyond 2 half sizes the point has left through the gap below the rim and stands outside
   if (depth <= 0.0 || covered <= 0.0 || depth > 2.0 * half_size_) return {};

@@ -7,7 +7,7 @@
 
 namespace isotach::mpm {
 
-/// Force of the wall on a point (N/rad).
+/// Force of the wall on a point (N/rad); it acts on the point's outer edge, at R.
 struct WallForce {
   double r = 0.0;
   double z = 0.0;
@@ -16,10 +16,9 @@ struct WallForce {
 /// A point as the wall meets it.
 struct WallPoint {
   double r, z;                    ///< m
-  double velocity_r, velocity_z;  ///< m/s
+  double velocity_r, velocity_z;  ///< at the wall (m/s)
   double mass;                    ///< kg/rad
   double radial_pressure;         ///< total (Pa), compression positive
-  double initial_pressure;  ///< total (Pa), in the filled mould: the wall carries it without being pushed
 };
 
 /// The mould: a cylinder r = R above its rim, acting on the mud inside.
@@ -35,10 +34,10 @@ class MouldContact final : public PointForce {
   struct Constants {
     double point_size;        ///< m
     double normal_stiffness;  ///< Pa/m: traction for a depth of penetration
-    double
-        normal_damping;  ///< Pa s/m: traction for a velocity of penetration, so that the wall does not ring
-    /// What to add to a point's reference pressure for its total pressure in the filled mould (Pa).
-    double initial_pressure_shift = 0.0;
+    /// Pa s/m: traction for a velocity of penetration, so that the wall does not ring.
+    double normal_damping;
+    /// Weight of the mud (N/m3): the wall carries the pressure of the filled mould without being pushed.
+    double unit_weight = 0.0;
   };
   MouldContact(const Mould& mould, const Constants& constants)
       : mould_(mould),
@@ -52,6 +51,12 @@ class MouldContact final : public PointForce {
   [[nodiscard]] WallForce force(const WallPoint& point, double rim, double rim_velocity, double dt) const;
 
  private:
+  /// How far the wall must be pushed for the pressure in the filled mould at a height (m).
+  template <class T>
+  [[nodiscard]] T preload(const T& z) const {
+    return (constants_.unit_weight / constants_.normal_stiffness) * (mould_.fill_height - z);
+  }
+
   Mould mould_;
   double radius_;
   double half_size_;

@@ -10,6 +10,9 @@
 
 namespace isotach::mpm {
 
+/// Points that are moved together; a multiple of all packs.
+inline constexpr std::size_t kBlock = 64;
+
 /// Material points. Mass and volume are per radian of an axisymmetric body, per metre of a plane one; r and z
 /// are then x and y. Arrays have padded() entries, so that packs of points may run past the last one; the
 /// padding repeats a valid state inside the grid and has neither mass nor volume.

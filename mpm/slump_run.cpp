@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mpm/mould_contact.hpp"
+#include "mpm/resting_pressure.hpp"
 
 namespace isotach::mpm {
 
@@ -49,24 +50,26 @@ EngineSettings settings_of(const SlumpSetup& setup, double density) {
 
 /// Points of the filled mould, at rest, undrained.
 Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const VhpMaterial& mud,
-                     double width, double height) {
+                     double cell_size, double width, double height) {
   Particles q;
   const double radius = 0.5 * setup.mould.diameter;
   const auto columns = static_cast<std::size_t>(std::lround(radius / width));
   const auto rows = static_cast<std::size_t>(std::lround(setup.mould.fill_height / height));
   q.count = columns * rows;
+  std::vector<double> heights(rows);
+  for (std::size_t row = 0; row < rows; ++row) heights[row] = (static_cast<double>(row) + 0.5) * height;
+  const std::vector<double> total =
+      resting_pressures(heights, cell_size, initial.density * kGravity, setup.mould.fill_height);
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t column = 0; column < columns; ++column) {
       const double r = (static_cast<double>(column) + 0.5) * width;
-      const double z = (static_cast<double>(row) + 0.5) * height;
       const double volume = r * width * height;  // exact: r is linear
       q.r.push_back(r);
-      q.z.push_back(z);
+      q.z.push_back(heights[row]);
       q.mass.push_back(initial.density * volume);
       q.solid_volume.push_back(volume / (1.0 + initial.void_ratio));
-      const double total = initial.density * kGravity * (setup.mould.fill_height - z);
       q.reference_pressure.push_back(
-          mud.reference_pressure(total - initial.mean_effective_pressure, initial.void_ratio));
+          mud.reference_pressure(total[row] - initial.mean_effective_pressure, initial.void_ratio));
     }
   }
   q.void_ratio.assign(q.count, initial.void_ratio);
@@ -94,14 +97,13 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
   const double bulk = setup.numerics.water_bulk_modulus * (1.0 + initial_.void_ratio) / initial_.void_ratio;
   const double impedance = std::sqrt(initial_.density * bulk);
   Body body;
-  body.particles = fill_mould(setup, initial_, *mud, width, height);
+  body.particles = fill_mould(setup, initial_, *mud, h, width, height);
   body.material = std::move(mud);
   body.density = initial_.density;
   body.viscosity = setup.numerics.background_viscosity;
   engine_.add(std::move(body));
-  MouldContact::Constants wall{width, kWallStiffness * bulk / h, kWallDamping * impedance};
-  wall.initial_pressure_shift =
-      initial_.mean_effective_pressure - mud_->reference_pressure(0.0, initial_.void_ratio);
+  const MouldContact::Constants wall{width, kWallStiffness * bulk / h, kWallDamping * impedance,
+                                     initial_.density * kGravity};
   engine_.add(std::make_unique<MouldContact>(setup.mould, wall));
   engine_.set_base(setup.base.friction);
 }

@@ -62,6 +62,23 @@ struct PointGift {
 
 }  // namespace
 
+void PointLoads::add_at(double r, double z, double force_r, double force_z) {
+  const CellPlace place = cell_place(all(r), all(z), 1.0 / grid_.cell_size(), grid_.stride());
+  const SplineOctets along_r(place.x);
+  const SplineOctets along_z(place.y);
+  const auto first = static_cast<std::size_t>(place.cell[0]);
+  const auto row = static_cast<std::size_t>(place.row[0]);
+  for (std::size_t b = 0; b < 3; ++b) {
+    sums_.touch(row + b, first - row * grid_.stride() + 3);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double weight = along_r.weight[a][0] * along_z.weight[b][0];
+      Octet& node = sums_.data()[first + b * grid_.stride() + a];
+      node[kAppliedR] += weight * force_r;
+      node[kAppliedZ] += weight * force_z;
+    }
+  }
+}
+
 template <Symmetry S>
 void push_to_nodes(const Particles& q, std::size_t begin, std::size_t end, const Grid& grid,
                    const PushSettings& settings, NodeSums& sums) {
@@ -72,8 +89,7 @@ void push_to_nodes(const Particles& q, std::size_t begin, std::size_t end, const
   BlockStress stress;
   alignas(64) Column x;
   alignas(64) Column y;
-  alignas(64) Column force_r;
-  alignas(64) Column force_z;
+  PointLoads loads(grid, sums);
   alignas(64) double weights[3][3][kBlock];
   alignas(64) PointGift gifts[kBlock];
 
@@ -93,12 +109,11 @@ void push_to_nodes(const Particles& q, std::size_t begin, std::size_t end, const
           store_octet(weights[b][a] + p, along_r.weight[a] * along_z.weight[b]);
         }
       }
-      store_octet(force_r + p, Octet{});
-      store_octet(force_z + p, Octet{});
     }
     total_stress<S>(q, start, packed, settings, cells, x, y, stride, stress);
+    loads.clear();
     for (const auto& force : *settings.forces) {
-      force->add({q, start, count, settings.time, settings.dt, stress.rr, force_r, force_z});
+      force->add({q, start, count, settings.time, settings.dt, stress.rr, loads});
     }
 
     for (std::size_t p = 0; p < packed; p += kOctet) {
@@ -127,9 +142,13 @@ void push_to_nodes(const Particles& q, std::size_t begin, std::size_t end, const
                               hoop + internal_r_r * dx + internal_shear * dy,
                               internal_shear * dx + internal_z_z * dy,
                               m,
-                              load_octet(force_r + p),
-                              load_octet(force_z + p) - m * settings.gravity,
+                              Octet{},
+                              -m * settings.gravity,
                               volume};
+      if (loads.any()) {
+        corner[kAppliedR] += load_octet(loads.force_r() + p);
+        corner[kAppliedZ] += load_octet(loads.force_z() + p);
+      }
       Octet slopes[kOctet] = {momentum_r_r, momentum_z_r, internal_r_r,   internal_shear,
                               momentum_r_z, momentum_z_z, internal_shear, internal_z_z};
       transpose(corner);

@@ -79,8 +79,7 @@ class BodyForce final : public mpm::PointForce {
       const std::size_t i = block.begin + p;
       const Pair b = field(symmetry_, q.r[i], q.z[i]).force;
       const double factor = q.mass[i] / kDensity * kShear * amplitude_;
-      block.force_r[p] += factor * b.r;
-      block.force_z[p] += factor * b.z;
+      block.loads.add(p, factor * b.r, factor * b.z);
     }
   }
 

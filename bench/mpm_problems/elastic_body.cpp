@@ -31,8 +31,7 @@ class GivenForce final : public mpm::PointForce {
       if (!field) continue;
       const Pair value = field(start_of(q, i), block.time);
       const double amount = loaded_side ? q.omega[2][i] : q.mass[i];
-      block.force_r[p] += amount * value.r;
-      block.force_z[p] += amount * value.z;
+      block.loads.add(p, amount * value.r, amount * value.z);
     }
   }
 

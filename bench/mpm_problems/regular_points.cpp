@@ -28,8 +28,7 @@ void Drag::add(const mpm::ForceBlock& block) const {
   const mpm::Particles& q = block.particles;
   for (std::size_t p = 0; p < block.count; ++p) {
     const double factor = rate_ * q.mass[block.begin + p];
-    block.force_r[p] -= factor * q.velocity_r[block.begin + p];
-    block.force_z[p] -= factor * q.velocity_z[block.begin + p];
+    block.loads.add(p, -factor * q.velocity_r[block.begin + p], -factor * q.velocity_z[block.begin + p]);
   }
 }
 

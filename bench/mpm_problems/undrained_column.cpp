@@ -65,7 +65,7 @@ class SurfaceLoad final : public mpm::PointForce {
   void add(const mpm::ForceBlock& block) const override {
     const double force = column_.load * area_ * load_share(column_, block.time + 0.5 * block.dt);
     for (std::size_t p = 0; p < block.count; ++p) {
-      if (block.particles.mass[block.begin + p] == 0.0) block.force_z[p] -= force;
+      if (block.particles.mass[block.begin + p] == 0.0) block.loads.add(p, 0.0, -force);
     }
   }
 

@@ -8,6 +8,7 @@ namespace isotach::mpm {
 namespace {
 
 constexpr double kRadius = 0.039;          // m
+constexpr double kFill = 0.14;             // m
 constexpr double kSize = 0.002;            // m
 constexpr double kStiffness = 5e7;         // Pa/m
 constexpr double kDamping = 4e3;           // Pa s/m
@@ -16,8 +17,9 @@ constexpr double kMass = 1e-4;             // kg/rad
 constexpr double kStep = 1e-4;             // s
 constexpr double kArea = kRadius * kSize;  // of the wall a point covers, per radian
 
-MouldContact contact(const Wall& wall) {
-  return MouldContact({2.0 * kRadius, 0.14, kLift, wall, 0.0, {}}, {kSize, kStiffness, kDamping});
+MouldContact contact(const Wall& wall, double unit_weight = 0.0) {
+  return MouldContact({2.0 * kRadius, kFill, kLift, wall, 0.0, {}},
+                      {kSize, kStiffness, kDamping, unit_weight});
 }
 
 /// A point, resting unless said otherwise, with its outer edge `depth` beyond the wall.
@@ -27,14 +29,13 @@ struct Point {
   double velocity_r = 0.0;
   double velocity_z = 0.0;
   double pressure = 1000.0;
-  double initial_pressure = 0.0;
   double rim = 0.0;
 };
 
-WallForce force(const Point& p, const Wall& wall = Wall::smooth()) {
-  return contact(wall).force({kRadius - 0.5 * kSize + p.depth, p.z, p.velocity_r, p.velocity_z, kMass,
-                              p.pressure, p.initial_pressure},
-                             p.rim, kLift, kStep);
+WallForce force(const Point& p, const Wall& wall = Wall::smooth(), double unit_weight = 0.0) {
+  return contact(wall, unit_weight)
+      .force({kRadius - 0.5 * kSize + p.depth, p.z, p.velocity_r, p.velocity_z, kMass, p.pressure}, p.rim,
+             kLift, kStep);
 }
 
 TEST(Mould, RimRisesAtTheLiftSpeedOnceTheDelayIsOver) {
@@ -84,7 +85,9 @@ TEST(MouldContact, WallNeverPulls) {
 }
 
 TEST(MouldContact, FilledMouldIsCarriedWithoutBeingPushed) {
-  EXPECT_NEAR(force({.depth = 0.0, .initial_pressure = 1200.0}).r, -1200.0 * kArea, 1e-3 * kArea);
+  // 0.09 m below the surface of 13.5 kN/m3
+  EXPECT_NEAR(force({.depth = 0.0, .z = 0.05}, Wall::smooth(), 13500.0).r, -1215.0 * kArea, 1e-9 * kArea);
+  EXPECT_EQ(force({.depth = 0.0, .z = 0.15}, Wall::smooth(), 13500.0).r, 0.0);
 }
 
 TEST(MouldContact, RimPastPartOfAPointLeavesItsShareOfThePressure) {

@@ -41,8 +41,7 @@ class Pull final : public PointForce {
  public:
   void add(const ForceBlock& block) const override {
     for (std::size_t p = 0; p < block.count; ++p) {
-      block.force_r[p] += 2.0 * block.particles.r[block.begin + p];
-      block.force_z[p] += 1e-9 * block.stress_rr[p];
+      block.loads.add(p, 2.0 * block.particles.r[block.begin + p], 1e-9 * block.stress_rr[p]);
     }
   }
 };
