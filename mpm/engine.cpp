@@ -8,12 +8,14 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "mpm/base_gap.hpp"
+
 namespace isotach::mpm {
 
 namespace {
 
 constexpr double kLeastNodeMass = 1e-30;     // kg/rad
-constexpr double kQuasiStaticEnergy = 1e-4;  // kinetic energy, scaled, over the energy scale
+constexpr double kQuasiStaticEnergy = 3e-5;  // kinetic energy, scaled, over the energy scale
 constexpr double kInertiaGrowth = 1.002;     // largest growth of the inertia factor in a step
 constexpr double kScattered = 1.5;           // times the stretches of sorted points: worth sorting again
 constexpr std::size_t kFewestPerThread = 4096;
@@ -361,6 +363,7 @@ std::optional<EngineFailure> Engine::pull(double dt) {
     if (!body.averaged) continue;
     for (const auto& rates : field.rates) field.corners.rates.add(rates, 0, rates.rows());
     field.corners.average_rate();
+    if (body.flows) close_gap_above_base(grid_, settings_.symmetry, field.corners);
   }
   return failure;
 }

@@ -21,13 +21,14 @@ struct Body {
   double density = 0.0;    ///< kg/m3, the least; sets the wave speed
   double viscosity = 0.0;  ///< eta of a stress 2 eta D* beside the material's (Pa s), >= 0
   bool averaged = true;    ///< tr D and mean stress are averaged over cells
+  bool flows = false;      ///< comes down on the base from above, and so must close the gap (base_gap.hpp)
 };
 
 struct EngineSettings {
   Symmetry symmetry = Symmetry::axisymmetric;
   double gravity = 9.81;         ///< m/s2, downwards
   double courant = 0.8;          ///< fraction of the critical time step
-  double residual_time = 0.15;   ///< s, in which what the grid cannot hold of a point's velocity fades
+  double residual_time = 0.3;    ///< s, in which what the grid cannot hold of a point's velocity fades
   double inertia_scaling = 1.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
   double energy_scale = 0.0;     ///< J/rad; kinetic energies far below it are quasi-static
   int threads = 1;

@@ -101,6 +101,7 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
   body.material = std::move(mud);
   body.density = initial_.density;
   body.viscosity = setup.numerics.background_viscosity;
+  body.flows = true;
   engine_.add(std::move(body));
   const MouldContact::Constants wall{width, kWallStiffness * bulk / h, kWallDamping * impedance,
                                      initial_.density * kGravity};

@@ -61,11 +61,11 @@ struct Base {
 /// Numerical choices; the defaults are meant to be kept.
 struct Numerics {
   double cell_size = 0.004;           ///< wanted cell size (m); the one used divides the mould's radius
-  int points_per_cell = 4;            ///< material points a cell at the start; a square number
+  int points_per_cell = 4;            ///< material points a cell at the start; 4, 9, 16, ...
   double water_bulk_modulus = 300e3;  ///< K_w (Pa), the undrained penalty
   double courant = 0.8;               ///< fraction of the critical time step, in (0, 1]
   double tolerance = 3e-3;            ///< relative tolerance of the stress update in a step
-  double background_viscosity = 1.5;  ///< eta (Pa s) of a stress 2 eta D* beside the law's, >= 0; README.md
+  double background_viscosity = 0.2;  ///< eta (Pa s) of a stress 2 eta D* beside the law's, >= 0
   int threads = 1;
   double inertia_scaling = 100.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
 };

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -70,13 +71,37 @@ TEST_F(Slump, Test1MeetsTheIndependentPrototype) {
   EXPECT_LT(result.outline_volume_error, 0.03);
 }
 
-TEST_F(Slump, CellsOfTwiceTheSizeAgreeWithin8Percent) {
-  const SlumpResult result = run(test_1(8 * kMillimetre, {5.0, 15.0}));
-  EXPECT_NEAR(result.outlines[0].height() / kMillimetre, 63.1, 0.08 * 63.1);
-  EXPECT_NEAR(result.outlines[1].height() / kMillimetre, 62.3, 0.08 * 62.3);
-  EXPECT_NEAR(result.outlines[0].toe() / kMillimetre, 91.3, 0.08 * 91.3);
-  EXPECT_NEAR(result.outlines[1].toe() / kMillimetre, 91.7, 0.08 * 91.7);
-  expect_conservation(result);
+// The limits are those of docs/mpm-verification.md, from cells down to 1 mm.
+TEST_F(Slump, CoarseCellsAreWithinThreePercentAndFinerOnesWithinHalfOfThat) {
+  const SlumpResult coarse = run(test_1(8 * kMillimetre, {1.0, 5.0}));
+  const SlumpResult fine = run(test_1(4 * kMillimetre, {1.0, 5.0}));
+  const std::array<double, 2> heights{62.9e-3, 62.0e-3};
+  const std::array<double, 2> toes{89.1e-3, 89.1e-3};
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(coarse.outlines[i].height() / heights[i], 1.0, 0.03);
+    EXPECT_NEAR(coarse.outlines[i].toe() / toes[i], 1.0, 0.03);
+    EXPECT_NEAR(fine.outlines[i].height() / heights[i], 1.0, 0.015);
+    EXPECT_NEAR(fine.outlines[i].toe() / toes[i], 1.0, 0.015);
+  }
+  expect_conservation(coarse);
+  expect_conservation(fine);
+}
+
+// Nothing holds the mud but wall and base; what moves it then is what the grid makes of equilibrium.
+TEST_F(Slump, FilledMouldStaysAtRestUntilItIsLifted) {
+  for (const Wall& wall : {Wall::smooth(), Wall::rough()}) {
+    for (const double cell_size : {8 * kMillimetre, 4 * kMillimetre}) {
+      SlumpSetup setup = test_1(cell_size, {0.1, 0.3});
+      setup.mould.wall = wall;
+      setup.mould.lift_delay = 1.0;
+      setup.numerics.inertia_scaling = 1.0;
+      const SlumpResult result = run(setup);
+      EXPECT_NEAR(result.outlines[1].height(), result.outlines[0].height(), 0.02 * kMillimetre);
+      for (const HistoryRow& row : result.history) {
+        EXPECT_LT(row.kinetic, 1e-6 * row.potential) << "at " << row.time << " s";
+      }
+    }
+  }
 }
 
 TEST_F(Slump, LargerInertiaOfTheSlowPartDoesNotMoveTheMud) {
@@ -130,7 +155,7 @@ TEST_F(Slump, RoughWallHoldsTheMudBack) {
   }
   // at 0.5 s the rim stands at 30 mm: the smooth wall has let the mud slump, the rough one still carries it
   EXPECT_LT(smooth.outlines[1].height() / kMillimetre, 90.0);
-  EXPECT_GT(rough.outlines[1].height() / kMillimetre, 130.0);
+  EXPECT_GT(rough.outlines[1].height() / kMillimetre, 110.0);
   expect_conservation(rough);
 }
 
@@ -146,17 +171,6 @@ TEST_F(Slump, MassIsThatOfTheFillAndStays) {
   for (std::size_t i = 0; i < particles.count; ++i) mass += particles.mass[i];
   const double expected = 0.5 * 0.039 * 0.039 * 0.14 * (2.65 + 3.891) / 4.891 * 1000.0;
   EXPECT_NEAR(mass / expected, 1.0, 1e-12);
-}
-
-TEST_F(Slump, MudRestsInAMouldThatStays) {
-  SlumpSetup setup = test_1(8 * kMillimetre, {0.2});
-  setup.mould.lift_speed = 1e-6;
-  const SlumpResult result = run(setup);
-  EXPECT_NEAR(result.outlines[0].height() / 0.14, 1.0, 0.01);
-  EXPECT_NEAR(result.outlines[0].toe() / 0.039, 1.0, 0.01);
-  // at rest: what it moves with is nothing to what it could fall with
-  EXPECT_LT(result.history.back().kinetic, 1e-4 * result.history.front().potential);
-  expect_conservation(result);
 }
 
 }  // namespace
