@@ -17,8 +17,11 @@ constexpr double kGravity = 9.81;             // m/s2
 constexpr double kDomainRadii = 6.0;          // width of the grid in mould radii
 constexpr double kDomainHeights = 1.25;       // height of the grid in fill heights
 constexpr double kLeastPressureShare = 1e-3;  // of the initial p': below it the skeleton has lost contact
-constexpr double kWallStiffness = 0.5;        // of K_w/n per cell size
-constexpr double kWallDamping = 0.5;          // of the mixture's impedance rho c
+// Residuals fade while a body that falls with the mud crosses so many cells: longer, and what fine cells
+// leave over feeds on itself; shorter, and coarse cells lose energy.
+constexpr double kResidualCells = 60.0;
+constexpr double kWallStiffness = 0.5;  // of K_w/n per cell size
+constexpr double kWallDamping = 0.5;    // of the mixture's impedance rho c
 
 double divided_cell_size(const SlumpSetup& setup) {
   const double radius = 0.5 * setup.mould.diameter;
@@ -44,6 +47,8 @@ EngineSettings settings_of(const SlumpSetup& setup, double density) {
   settings.courant = setup.numerics.courant;
   settings.inertia_scaling = setup.numerics.inertia_scaling;
   settings.energy_scale = potential_energy(setup, density);
+  settings.residual_time =
+      kResidualCells * divided_cell_size(setup) / std::sqrt(kGravity * setup.mould.fill_height);
   settings.threads = setup.numerics.threads;
   return settings;
 }

@@ -50,13 +50,13 @@ Section elastic_bar_section() {
   section.text =
       R"(A bar of 1 m, held across and at its left end, free at its right end, of modulus M = K + 4/3 G:
 v = v0 sin(b x) cos(w t), b = pi/(2L), w = b sqrt(M/rho). Strains are 1e-6: no point leaves its cell. 2 x 2 points a cell,
-steps of 0.4 h/c, residuals fade in 0.3 s (the engine's default; the period is 0.109 s) and no artificial viscosity,
+steps of 0.4 h/c, residuals fade in 0.15 s (the engine's default; the period is 0.109 s) and no artificial viscosity,
 unless said. Velocities stand half a step before displacements and are started and compared there. Errors are roots of
 mean squares over mass and a period, over those of the exact field; the frequency is that of the sinusoid closest to the
 modal amplitude of three periods.
 
 The order is 2, averaged over cells or not, with the free end at a side of a cell or in the middle of one, whether what
-the grid cannot hold fades in 0.3 s, never, or at once (plain APIC: value and gradient of the grid hand a quadratic
+the grid cannot hold fades in 0.15 s, never, or at once (plain APIC: value and gradient of the grid hand a quadratic
 field back unchanged, so what is dropped every step is h^4 times a fourth derivative). Only artificial viscosity, here
 0.1 rho c h, costs an order, as it must. The frequency error is that of an endless bar in closed form: the fourth moment of
 the quadratic B-spline about points at +-1/4 of their cells, 43/256, takes 0.112 (b h)^2, strains that alternate from
