@@ -52,7 +52,7 @@ Body& Engine::add(Body body) {
   for (std::size_t i = 0; i < q.count; ++i) {
     if (outside(q.r[i], q.z[i])) throw std::invalid_argument("a point lies outside of the grid");
   }
-  fields_.push_back(Field{CornerField(grid_.stride(), grid_.rows() + 2), {}, {}, 0});
+  fields_.push_back(Field{CornerField(grid_.stride(), grid_.rows() + 2), {}, {}});
   bodies_.push_back(std::move(body));
   return bodies_.back();
 }
@@ -142,7 +142,7 @@ void Engine::start() {
     sort(body);
     fields_[b].stretches = count_stretches(grid_, body.particles);
     for (std::size_t i = 0; i < body.particles.count; ++i) {
-      count_.stiffest = std::max(count_.stiffest, body.material->wave_modulus(body.particles, i));
+      fields_[b].stiffest = std::max(fields_[b].stiffest, body.material->wave_modulus(body.particles, i));
     }
     if (!body.averaged) continue;
     CornerField& corners = fields_[b].corners;
@@ -151,19 +151,20 @@ void Engine::start() {
   }
 }
 
-// Explicit limits: no wave may cross a cell in a step, and momentum may not diffuse across one.
-double Engine::time_step() {
+// Explicit limits: no wave may cross a cell in a step, and momentum may not diffuse across one. Where bodies
+// share nodes, their highest frequency is no higher than the highest of theirs (Rayleigh's quotient).
+double Engine::longest_step() const {
   const double h = grid_.cell_size();
   double least = HUGE_VAL;
-  for (const Body& body : bodies_) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = bodies_[b];
     const double density = body.density * inertia_;
-    const double wave_speed = std::sqrt(count_.stiffest / density);
+    const double wave_speed = std::sqrt(fields_[b].stiffest / density);
     least = std::min(least, settings_.courant * h / (wave_speed + fastest_));
     if (body.viscosity > 0.0) {
       least = std::min(least, 0.25 * h * h * density / body.viscosity);
     }
   }
-  count_.stiffest = 0.0;
   return least;
 }
 
@@ -183,7 +184,7 @@ void Engine::push(double dt) {
     settings.velocity_scale = scale;
     settings.mean = body.averaged ? fields_[b].corners.mean.data() : nullptr;
     settings.material = body.material.get();
-    settings.forces = &forces_;
+    settings.forces = &body.forces;
     with_symmetry(settings_.symmetry, [&]<Symmetry S>() {
       team_->run([&](int k) {
         const auto [begin, end] = share(body.particles, k);
@@ -384,7 +385,10 @@ void Engine::update(double dt) {
                          body.averaged ? &pressures : nullptr, counts[static_cast<std::size_t>(k)]);
       });
     });
-    for (const MaterialCount& count : counts) count_ += count;
+    MaterialCount met;
+    for (const MaterialCount& count : counts) met += count;
+    field.stiffest = met.stiffest;
+    count_ += met;
     if (!body.averaged) continue;
     for (const auto& pressures : field.pressures) field.corners.pressures.add(pressures, 0, pressures.rows());
     field.corners.average_pressure();
@@ -395,7 +399,7 @@ std::optional<EngineFailure> Engine::step(double until) {
   if (!team_) gather_team();
   if (!started_) start();
   sort_if_scattered();
-  const double dt = std::min(time_step(), until - time_);
+  const double dt = std::min(longest_step(), until - time_);
   push(dt);
   advance_nodes(dt);
   if (auto failure = pull(dt)) return failure;

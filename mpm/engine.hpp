@@ -22,6 +22,7 @@ struct Body {
   double viscosity = 0.0;  ///< eta of a stress 2 eta D* beside the material's (Pa s), >= 0
   bool averaged = true;    ///< tr D and mean stress are averaged over cells
   bool flows = false;      ///< comes down on the base from above, and so must close the gap (base_gap.hpp)
+  std::vector<std::unique_ptr<const PointForce>> forces;  ///< that act on these points, and on no others
 };
 
 struct EngineSettings {
@@ -64,7 +65,11 @@ class Engine {
   /// Adds a body whose particles lie in the grid; arrays of r .. stress are filled, and of omega where the
   /// material wants it.
   Body& add(Body body);
-  void add(std::unique_ptr<PointForce> force) { forces_.push_back(std::move(force)); }
+  /// Adds a force on the points of one body, given by its place in bodies(); of those of the others it knows
+  /// nothing.
+  void add(std::unique_ptr<const PointForce> force, std::size_t body = 0) {
+    bodies_.at(body).forces.push_back(std::move(force));
+  }
   void set_base(const BaseFriction& base) { base_ = base; }
 
   /// One time step, no longer than to `until` (s). After a failure the points are where they were.
@@ -88,6 +93,7 @@ class Engine {
     for (Field& field : fields_) {
       archive(field.corners);
       archive(field.stretches);
+      archive(field.stiffest);
     }
     archive(started_);
     archive(time_);
@@ -109,6 +115,7 @@ class Engine {
     std::vector<RowSums<CornerSum>> pressures;  ///< of the team's further threads
     std::vector<RowSums<double>> rates;
     std::size_t stretches = 0;  ///< of points in the same cell, when they were last sorted
+    double stiffest = 0.0;      ///< largest modulus of a plane wave that the last step met (Pa)
   };
 
   /// Velocities along a base that yields, of the nodes above and below it, before and after the step (m/s).
@@ -120,7 +127,7 @@ class Engine {
     double above = 0.0;
   };
 
-  [[nodiscard]] double time_step();
+  [[nodiscard]] double longest_step() const;
   void gather_team();
   void start();
   void sort_if_scattered();
@@ -141,7 +148,6 @@ class Engine {
   std::vector<NodeSums> sums_;  ///< of the team's further threads
   std::vector<Body> bodies_;
   std::vector<Field> fields_;
-  std::vector<std::unique_ptr<PointForce>> forces_;
   BaseFriction base_;
   std::vector<Slip> slip_;  ///< at the columns of nodes
 

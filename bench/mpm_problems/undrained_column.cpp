@@ -57,16 +57,13 @@ double load_rate(const MudColumn& column, double time) {
   return column.load * 6.0 * x * (1.0 - x) / column.loading_time;
 }
 
-/// The load on the points that have no mass, an equal part on each. Forces meet the points of every body, so
-/// the mass tells them apart.
+/// The load on the points of the surface, an equal part on each.
 class SurfaceLoad final : public mpm::PointForce {
  public:
   SurfaceLoad(const MudColumn& column, double area) : column_(column), area_(area) {}
   void add(const mpm::ForceBlock& block) const override {
     const double force = column_.load * area_ * load_share(column_, block.time + 0.5 * block.dt);
-    for (std::size_t p = 0; p < block.count; ++p) {
-      if (block.particles.mass[block.begin + p] == 0.0) block.loads.add(p, 0.0, -force);
-    }
+    for (std::size_t p = 0; p < block.count; ++p) block.loads.add(p, 0.0, -force);
   }
 
  private:
@@ -227,7 +224,7 @@ ColumnResult load_column(const MudColumn& column) {
                      settings);
   engine.add(mud_body(column, initial));
   engine.add(surface_body(column, initial.density));
-  engine.add(std::make_unique<SurfaceLoad>(column, 0.5 * h));
+  engine.add(std::make_unique<SurfaceLoad>(column, 0.5 * h), 1);
   const double below = column.height - kSurfaceCells * h;
   const Means before = means(engine, below);
   const double end = column.loading_time + column.holding_time;

@@ -266,6 +266,62 @@ TEST(Engine, StepEndsWhereItIsTold) {
   EXPECT_GT(engine.last_step(), 1e-5);
 }
 
+/// Two plates a wide gap apart, so that they share no nodes; the second of the density and moduli given.
+Engine two_plates(double density, double bulk) {
+  Grid grid(kCell, 30 * kCell, 30 * kCell, {Side::open, Side::open, Side::open, Side::open});
+  const auto plate = [&](double middle) {
+    return body(grid, Symmetry::plane, [middle](double r, double z) {
+      return std::abs(r - 0.15) < 0.05 && std::abs(z - middle) < 0.03;
+    });
+  };
+  Body first = plate(0.08);
+  Body second = plate(0.22);
+  second.density = density;
+  second.material = std::make_unique<ViscoplasticMaterial>(ViscoplasticMaterial::Constants{bulk, kShear});
+  Engine engine(std::move(grid), quiet(Symmetry::plane));
+  engine.add(std::move(first));
+  engine.add(std::move(second));
+  return engine;
+}
+
+class Push final : public PointForce {
+ public:
+  void add(const ForceBlock& block) const override {
+    for (std::size_t p = 0; p < block.count; ++p) {
+      block.loads.add(p, block.particles.mass[block.begin + p], 0.0);
+    }
+  }
+};
+
+TEST(Engine, AForceOnOneBodyLeavesTheOthersAlone) {
+  for (const std::size_t pushed : {0U, 1U}) {
+    Engine engine = two_plates(kDensity, kBulk);
+    engine.add(std::make_unique<Push>(), pushed);
+    while (engine.time() < 0.01) ASSERT_FALSE(engine.step(0.01).has_value());
+    const Particles& moved = engine.bodies()[pushed].particles;
+    const Particles& left = engine.bodies()[1 - pushed].particles;
+    for (std::size_t i = 0; i < moved.count; ++i) EXPECT_NEAR(moved.velocity_r[i], 0.01, 1e-12);
+    for (std::size_t i = 0; i < left.count; ++i) EXPECT_EQ(left.velocity_r[i], 0.0);
+  }
+  Engine engine = two_plates(kDensity, kBulk);
+  EXPECT_THROW(engine.add(std::make_unique<Push>(), 2), std::out_of_range);
+}
+
+// dt = 0.8 h/c of the body whose waves are faster, c = sqrt((K + 4 G/3)/rho): stiff and heavy need not be it.
+TEST(Engine, StepIsTheLeastOfWhatTheBodiesAllow) {
+  const auto step = [](double density, double bulk) {
+    Engine engine = two_plates(density, bulk);
+    EXPECT_FALSE(engine.step(1.0).has_value());
+    return engine.last_step();
+  };
+  const auto allowed = [](double density, double bulk) {
+    return 0.8 * kCell / std::sqrt((bulk + 4.0 / 3.0 * kShear) / density);
+  };
+  EXPECT_DOUBLE_EQ(step(kDensity, 25.0 * kBulk), allowed(kDensity, 25.0 * kBulk));
+  EXPECT_DOUBLE_EQ(step(kDensity, 0.01 * kBulk), allowed(kDensity, kBulk));
+  EXPECT_DOUBLE_EQ(step(100.0 * kDensity, 25.0 * kBulk), allowed(kDensity, kBulk));
+}
+
 TEST(Engine, APointThatLeavesTheGridEndsTheRunWithItsPlace) {
   Engine engine = free_plate();
   Particles& q = engine.particles(0);
