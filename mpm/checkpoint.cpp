@@ -52,6 +52,9 @@ std::uint64_t run_key(const model::Parameters<double>& parameters, const SlumpSe
   archive(copy.base.friction.adhesion);
   archive(copy.base.friction.friction);
   archive(copy.base.friction.slip_length);
+  bool elastic = copy.base.slab.has_value();
+  archive(elastic);
+  if (elastic) archive(*copy.base.slab);
   archive(copy.numerics.cell_size);
   archive(copy.numerics.points_per_cell);
   archive(copy.numerics.water_bulk_modulus);

@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "mpm/base_gap.hpp"
+#include "mpm/plane_tie.hpp"
 
 namespace isotach::mpm {
 
 namespace {
 
-constexpr double kLeastNodeMass = 1e-30;     // kg/rad
 constexpr double kQuasiStaticEnergy = 3e-5;  // kinetic energy, scaled, over the energy scale
 constexpr double kInertiaGrowth = 1.002;     // largest growth of the inertia factor in a step
 constexpr double kScattered = 1.5;           // times the stretches of sorted points: worth sorting again
@@ -55,6 +55,15 @@ Body& Engine::add(Body body) {
   fields_.push_back(Field{CornerField(grid_.stride(), grid_.rows() + 2), {}, {}});
   bodies_.push_back(std::move(body));
   return bodies_.back();
+}
+
+void Engine::rest_on(std::unique_ptr<Engine> floor) {
+  if (!floor || floor->floor_ || floor->grid_.cell_size() != grid_.cell_size() ||
+      floor->settings_.symmetry != settings_.symmetry || floor->grid_.sides().top != Side::open ||
+      grid_.sides().bottom != Side::open) {
+    throw std::invalid_argument("a floor needs cells and symmetry as above it, and open sides between");
+  }
+  floor_ = std::move(floor);
 }
 
 std::pair<std::size_t, std::size_t> Engine::share(const Particles& q, int k) const {
@@ -133,6 +142,12 @@ void Engine::gather_team() {
       field.rates.emplace_back(grid_.stride(), grid_.rows() + 2);
     }
   }
+}
+
+void Engine::prepare() {
+  if (!team_) gather_team();
+  if (!started_) start();
+  sort_if_scattered();
 }
 
 void Engine::start() {
@@ -298,24 +313,26 @@ void Engine::slide(double dt) {
   }
 }
 
-void Engine::advance_nodes(double dt) {
+void Engine::fold(double dt) {
   kinetic_ = 0.0;
   grid_.fold_columns();
-  const bool slides = grid_.sides().bottom == Side::fixed && base_.yields();
-  if (slides) slide(dt);
+  if (slides()) slide(dt);
   grid_.fold_rows();
-  if (slides) {  // what moves along the base is known
+  if (slides()) {  // what moves along the base is known
     for (std::size_t i = 0; i < grid_.sums().end(0); ++i) {
       if (!slip_[i].touches) continue;
       Octet& node = grid_.sums().data()[grid_.index(i, 1)];
       node[kMomentumR] = node[kInternalR] = node[kAppliedR] = 0.0;
     }
   }
+}
+
+void Engine::advance_nodes(double dt) {
   const std::size_t first = grid_.sides().bottom == Side::open ? 0 : 1;
   const std::size_t last = grid_.sides().top == Side::open ? grid_.rows() + 2 : grid_.rows() + 1;
   for (std::size_t j = first; j < last; ++j) advance_row(j, dt, internal_work_, applied_work_, kinetic_);
   grid_.mirror_velocities();
-  if (!slides) return;
+  if (!slides()) return;
   for (std::size_t i = 0; i < grid_.sums().end(0); ++i) {
     const Slip& slip = slip_[i];
     if (!slip.touches) continue;
@@ -395,20 +412,54 @@ void Engine::update(double dt) {
   }
 }
 
+std::optional<EngineFailure> Engine::stick_to_floor(double dt) {
+  floor_->push(dt);
+  floor_->fold(dt);
+  const auto column = tie_planes(grid_.sums(), floor_->grid_.sums());
+  if (!column) return std::nullopt;
+  const double r = (static_cast<double>(*column) - 0.5) * grid_.cell_size();
+  return EngineFailure{
+      EngineFailure::Kind::left_floor, time_, r, 0.0,
+      fmt::format("the material runs beyond what it rests on at t = {:.6g} s, r = {:.1f} mm (step {})", time_,
+                  r * 1e3, steps_)};
+}
+
 std::optional<EngineFailure> Engine::step(double until) {
-  if (!team_) gather_team();
-  if (!started_) start();
-  sort_if_scattered();
-  const double dt = std::min(longest_step(), until - time_);
+  prepare();
+  double dt = std::min(longest_step(), until - time_);
+  if (floor_) {  // one motion: the same step, and inertia as large
+    floor_->inertia_ = inertia_;
+    floor_->next_inertia_ = next_inertia_;
+    floor_->prepare();
+    dt = std::min(dt, floor_->longest_step());
+  }
   push(dt);
+  fold(dt);
+  if (floor_) {
+    if (auto failure = stick_to_floor(dt)) return failure;
+    floor_->advance_nodes(dt);
+  }
   advance_nodes(dt);
   if (auto failure = pull(dt)) return failure;
+  if (floor_) {
+    if (auto failure = floor_->pull(dt)) {
+      failure->z -= floor_->grid_.height();  // as seen from above
+      failure->message = "in what the material rests on: " + failure->message;
+      return failure;
+    }
+    floor_->update(dt);
+    floor_->end_step(dt, until);
+  }
   update(dt);
+  end_step(dt, until);
+  if (settings_.inertia_scaling > 1.0) adapt_inertia();
+  return std::nullopt;
+}
+
+void Engine::end_step(double dt, double until) {
   ++steps_;
   last_dt_ = dt;
   time_ = dt < until - time_ ? time_ + dt : until;
-  if (settings_.inertia_scaling > 1.0) adapt_inertia();
-  return std::nullopt;
 }
 
 // Larger inertia permits longer steps. It may grow while the kinetic energy it makes stays far below the

@@ -37,7 +37,7 @@ struct EngineSettings {
 
 /// Why and where a step could not be done.
 struct EngineFailure {
-  enum class Kind { left_grid, not_finite };
+  enum class Kind { left_grid, not_finite, left_floor };
   Kind kind;
   double time;  ///< s
   double r;     ///< m
@@ -71,6 +71,11 @@ class Engine {
     bodies_.at(body).forces.push_back(std::move(force));
   }
   void set_base(const BaseFriction& base) { base_ = base; }
+  /// Puts the bodies on those of another engine, whose steps this one then takes with its own: the bottom of
+  /// this grid sticks to the top of the floor's (plane_tie.hpp). Both sides open, cells and symmetry alike.
+  void rest_on(std::unique_ptr<Engine> floor);
+  /// What the bodies rest on; null where that is a side of the grid.
+  [[nodiscard]] const Engine* floor() const { return floor_.get(); }
 
   /// One time step, no longer than to `until` (s). After a failure the points are where they were.
   [[nodiscard]] std::optional<EngineFailure> step(double until);
@@ -86,7 +91,8 @@ class Engine {
   [[nodiscard]] double inertia() const { return inertia_; }
   [[nodiscard]] double last_step() const { return last_dt_; }
   [[nodiscard]] Energies energies() const;
-  /// Saves or loads everything that steps change; bodies, forces and base are those the engine was made with.
+  /// Saves or loads everything that steps change, here and in the floor; bodies, forces and base are those
+  /// the engine was made with.
   template <class Archive>
   void visit(Archive& archive) {
     for (Body& body : bodies_) archive(body.particles);
@@ -105,6 +111,7 @@ class Engine {
     archive(next_inertia_);
     archive(internal_work_);
     archive(applied_work_);
+    if (floor_) archive(*floor_);
   }
   /// Averaged total pressure of a body's point (Pa): the one that acts.
   [[nodiscard]] double total_pressure(std::size_t body, std::size_t i) const;
@@ -129,16 +136,21 @@ class Engine {
 
   [[nodiscard]] double longest_step() const;
   void gather_team();
+  void prepare();
   void start();
   void sort_if_scattered();
   void sort(Body& body);
   void push(double dt);
   void advance_nodes(double dt);
   void advance_row(std::size_t j, double dt, double& internal_work, double& applied_work, double& kinetic);
+  [[nodiscard]] bool slides() const { return grid_.sides().bottom == Side::fixed && base_.yields(); }
   void slide(double dt);
+  void fold(double dt);
+  [[nodiscard]] std::optional<EngineFailure> stick_to_floor(double dt);
   [[nodiscard]] std::optional<EngineFailure> pull(double dt);
   void update(double dt);
   void adapt_inertia();
+  void end_step(double dt, double until);
   /// Points of the team's thread k: first and last + 1.
   [[nodiscard]] std::pair<std::size_t, std::size_t> share(const Particles& particles, int k) const;
 
@@ -150,6 +162,7 @@ class Engine {
   std::vector<Field> fields_;
   BaseFriction base_;
   std::vector<Slip> slip_;  ///< at the columns of nodes
+  std::unique_ptr<Engine> floor_;
 
   bool started_ = false;
   double time_ = 0.0;

@@ -24,6 +24,8 @@ inline constexpr std::size_t kMass = 4;
 inline constexpr std::size_t kAppliedR = 5;
 inline constexpr std::size_t kAppliedZ = 6;
 inline constexpr std::size_t kVolume = 7;
+/// Nodes of no more mass (kg/rad) are empty.
+inline constexpr double kLeastNodeMass = 1e-30;
 
 /// What holds the material at a side of the grid.
 enum class Side {

@@ -91,7 +91,7 @@ struct SlumpResult {
 };
 
 struct SlumpFailure {
-  enum class Kind { bad_setup, left_grid, not_finite, interrupted, no_outline };
+  enum class Kind { bad_setup, left_grid, left_slab, not_finite, interrupted, no_outline };
   Kind kind;
   double time;  ///< s
   double r;     ///< m, where it has a place
@@ -119,6 +119,9 @@ struct RunOptions {
 /// Initial state of the mud: e0 given, or solved from C_u by
 /// q_cs = M p_B/2 [|D| (1 - C_1)/D_r]^I_v, C_u = q_cs/2, |D| = strength_rate (D_r where not given).
 [[nodiscard]] InitialState initial_state(const model::Parameters<double>& parameters, const Mud& mud);
+
+/// Total vertical stress on the base of the filled mould (Pa), compression positive.
+[[nodiscard]] double fill_pressure(const model::Parameters<double>& parameters, const SlumpSetup& setup);
 
 /// Void ratio at which the undrained strength at rate |D| (1/s) is `undrained_strength` (Pa).
 [[nodiscard]] double void_ratio_from_strength(const model::Parameters<double>& parameters,

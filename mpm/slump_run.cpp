@@ -8,6 +8,7 @@
 
 #include "mpm/mould_contact.hpp"
 #include "mpm/resting_pressure.hpp"
+#include "mpm/slab_engine.hpp"
 
 namespace isotach::mpm {
 
@@ -32,7 +33,7 @@ Grid grid_of(const SlumpSetup& setup) {
   return {divided_cell_size(setup),
           kDomainRadii * 0.5 * setup.mould.diameter,
           kDomainHeights * setup.mould.fill_height,
-          {Side::symmetric, Side::open, Side::fixed, Side::open}};
+          {Side::symmetric, Side::open, setup.base.slab ? Side::open : Side::fixed, Side::open}};
 }
 
 double potential_energy(const SlumpSetup& setup, double density) {
@@ -87,6 +88,10 @@ Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const
 
 }  // namespace
 
+double fill_pressure(const model::Parameters<double>& parameters, const SlumpSetup& setup) {
+  return initial_state(parameters, setup.mud).density * kGravity * setup.mould.fill_height;
+}
+
 SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup& setup)
     : setup_(setup),
       initial_(initial_state(parameters, setup.mud)),
@@ -112,14 +117,33 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
                                      initial_.density * kGravity};
   engine_.add(std::make_unique<MouldContact>(setup.mould, wall));
   engine_.set_base(setup.base.friction);
+  if (setup.base.slab) {
+    const SlabLoad fill{fill_pressure(parameters, setup), 0.5 * setup.mould.diameter};
+    engine_.rest_on(slab_engine(*setup.base.slab, h, fill, engine_.settings()));
+  }
 }
+
+namespace {
+
+SlumpFailure::Kind kind_of(EngineFailure::Kind kind) {
+  switch (kind) {
+    case EngineFailure::Kind::left_grid:
+      return SlumpFailure::Kind::left_grid;
+    case EngineFailure::Kind::left_floor:
+      return SlumpFailure::Kind::left_slab;
+    case EngineFailure::Kind::not_finite:
+      break;
+  }
+  return SlumpFailure::Kind::not_finite;
+}
+
+}  // namespace
 
 std::optional<SlumpFailure> SlumpRun::step(double until) {
   auto failure = engine_.step(until);
   if (!failure) return std::nullopt;
-  return SlumpFailure{failure->kind == EngineFailure::Kind::left_grid ? SlumpFailure::Kind::left_grid
-                                                                      : SlumpFailure::Kind::not_finite,
-                      failure->time, failure->r, failure->z, std::move(failure->message)};
+  return SlumpFailure{kind_of(failure->kind), failure->time, failure->r, failure->z,
+                      std::move(failure->message)};
 }
 
 HistoryRow SlumpRun::history_row() const {

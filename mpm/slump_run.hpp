@@ -11,7 +11,9 @@
 namespace isotach::mpm {
 
 /// The engine (engine.hpp) with what a slump test needs: mud that fills the mould at rest, in undrained
-/// conditions, the mould's wall as a force on points, and a base.
+/// conditions, the mould's wall as a force on points, and a base. An elastic slab is a body with a grid of
+/// its own below the mud's; heights are above its upper face as it stands under the fill, and energies the
+/// mud's.
 ///
 /// A background viscosity is a stress like any other and part of the stress work.
 class SlumpRun {
@@ -23,6 +25,10 @@ class SlumpRun {
 
   [[nodiscard]] double time() const { return engine_.time(); }
   [[nodiscard]] const Particles& particles() const { return engine_.bodies().front().particles; }
+  /// Points of the elastic slab below the mud, their heights over its lower face; null where there is none.
+  [[nodiscard]] const Particles* slab() const {
+    return engine_.floor() ? &engine_.floor()->bodies().front().particles : nullptr;
+  }
   [[nodiscard]] double cell_size() const { return engine_.grid().cell_size(); }
   [[nodiscard]] const InitialState& initial() const { return initial_; }
   [[nodiscard]] Outline outline() const { return trace_outline(particles(), cell_size(), time()); }

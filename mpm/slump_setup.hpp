@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mpm/base_friction.hpp"
+#include "mpm/elastic_slab.hpp"
 
 namespace isotach::mpm {
 
@@ -53,9 +54,11 @@ struct Mud {
   double overconsolidation_ratio = 1.5;      ///< OCR0 (-) of the isotropic start, > 0
 };
 
-/// How the mud meets the base plane z = 0: rigid, and without slip unless it yields to shear.
+/// What the mud stands on at z = 0: a rigid plane, without slip unless it yields to shear, or an elastic slab
+/// that it sticks to.
 struct Base {
-  BaseFriction friction;
+  BaseFriction friction;  ///< of the rigid plane
+  std::optional<ElasticSlab> slab;
 };
 
 /// Numerical choices; the defaults are meant to be kept.

@@ -100,8 +100,9 @@ ordered_json failure_json(const RunInfo& run, const mpm::SlumpFailure& failure) 
   ordered_json json = result_head(run, failure.kind == Kind::interrupted ? "interrupted" : "failed", {});
   json["failure"] = failure.message;
   json["time_s"] = json_number(failure.time);
-  // only a point that went astray has a place
-  const bool placed = failure.kind == Kind::left_grid || failure.kind == Kind::not_finite;
+  // only what went astray has a place
+  const bool placed =
+      failure.kind == Kind::left_grid || failure.kind == Kind::left_slab || failure.kind == Kind::not_finite;
   json["r_mm"] = placed ? json_number(1e3 * failure.r) : ordered_json(nullptr);
   json["z_mm"] = placed ? json_number(1e3 * failure.z) : ordered_json(nullptr);
   return json;

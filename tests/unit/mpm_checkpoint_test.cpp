@@ -83,6 +83,24 @@ TEST_F(CheckpointTest, ARunThatWasInterruptedGoesOnAsIfItHadNot) {
   EXPECT_FALSE(std::filesystem::exists(file_)) << "a run that is over leaves no checkpoint";
 }
 
+TEST_F(CheckpointTest, AnElasticBaseGoesOnWithTheMud) {
+  setup_.base.slab = ElasticSlab{};
+  const auto whole = run_slump(tests::seed_mud(), setup_, options());
+  ASSERT_TRUE(whole.has_value());
+  interrupt_after(1);
+  RunOptions resumed = options();
+  resumed.checkpoint = file_;
+  const auto rest = run_slump(tests::seed_mud(), setup_, resumed);
+  ASSERT_TRUE(rest.has_value());
+  EXPECT_EQ(bytes_of(*rest), bytes_of(*whole));
+  SlumpSetup other = setup_;
+  other.base.slab->youngs_modulus *= 2.0;
+  const auto key = [&](const SlumpSetup& setup) { return run_key(tests::seed_mud(), setup, true, true, 12); };
+  EXPECT_NE(key(other), key(setup_));
+  other.base.slab.reset();
+  EXPECT_NE(key(other), key(setup_));
+}
+
 TEST_F(CheckpointTest, WhatBelongsToAnotherRunOrIsNotWholeIsNotUsed) {
   const std::uint64_t key = run_key(tests::seed_mud(), setup_, true, false, 0);
   ASSERT_TRUE(write_checkpoint(file_, key, "state"));

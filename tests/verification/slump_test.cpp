@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "datasets/slump_file.hpp"
+#include "mpm/slump_run.hpp"
 
 namespace isotach::mpm {
 namespace {
@@ -140,6 +141,54 @@ TEST_F(Slump, SameInputGivesTheSameBytes) {
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(OutlinePoint)), 0);
   }
   EXPECT_EQ(first.steps, second.steps);
+}
+
+// 140 mm of mud press a slab of 1 MPa in by 7 micrometres. That leaves no trace; what differs is the length
+// of steps, of which half as long ones may move the outline by 0.5 mm (above).
+TEST_F(Slump, AStiffElasticBaseIsTheRoughBase) {
+  SlumpSetup setup = test_1(8 * kMillimetre, {0.25, 0.5, 1.0, 5.0});
+  const SlumpResult rough = run(setup);
+  setup.base.slab = ElasticSlab{};
+  const SlumpResult elastic = run(setup);
+  EXPECT_LT(largest_difference(rough, elastic), 0.5 * kMillimetre);
+  EXPECT_EQ(elastic.points, rough.points) << "results are the mud's";
+  expect_conservation(elastic);
+}
+
+// One that the fill settles by 34 micrometres: most of it comes back as the mud goes, rho g (H - h) t/M on
+// the axis, give or take what the mud's shear stress carries sideways.
+TEST_F(Slump, ASoftBaseRisesByTheWeightThatLeavesIt) {
+  SlumpSetup setup = test_1(8 * kMillimetre, {2.0});
+  ElasticSlab slab;
+  slab.youngs_modulus = 2e5;
+  setup.base.slab = slab;
+  SlumpRun slump(file_.material, setup);
+  const auto height_on_axis = [&] {  // of the points halfway up, above the lower face
+    const Particles& q = *slump.slab();
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < q.count; ++i) {
+      if (q.r[i] > 10 * kMillimetre) continue;
+      sum += q.z[i];
+      ++count;
+    }
+    return sum / count;
+  };
+  const double start = height_on_axis();
+  while (slump.time() < 2.0) ASSERT_FALSE(slump.step(2.0).has_value());
+  const double left = 0.14 - slump.history_row().height;
+  const double density = (2.65 + 3.891) / 4.891 * 1000.0;
+  const double expected = density * 9.81 * left * 0.005 * 1.3 * 0.4 / (0.7 * 2e5);
+  EXPECT_NEAR(height_on_axis() - start, 0.5 * expected, 0.15 * 0.5 * expected);
+}
+
+TEST_F(Slump, MudThatReachesTheEdgeOfItsSlabEndsTheRun) {
+  SlumpSetup setup = test_1(8 * kMillimetre, {2.0});
+  setup.base.slab = ElasticSlab{.length = 0.06};
+  const auto result = run_slump(file_.material, setup);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().kind, SlumpFailure::Kind::left_slab);
+  EXPECT_NEAR(result.error().r, 0.06, 0.016);
 }
 
 // A wall the mud cannot slip on carries it up until the rim has passed: the mud stands higher at all times
