@@ -5,6 +5,7 @@
 #include <array>
 
 #include "datasets/study_sections.hpp"
+#include "mpm/slump.hpp"
 
 namespace isotach::datasets {
 namespace {
@@ -14,6 +15,8 @@ constexpr Range kDistance_mm{0.0, 10000.0};
 constexpr Range kShear_kPa{0.0, 1000.0};
 constexpr Range kFriction{0.0, 10.0};
 constexpr Range kTime_s{0.0, 1e7};
+constexpr Range kYoung_kPa = Range::positive(1e9);
+constexpr Range kPoisson{0.0, 0.45};
 
 mpm::Wall read_wall(TomlTable& mould, Assumptions& assumptions) {
   if (mould.is_table("wall")) {
@@ -62,6 +65,22 @@ std::vector<mpm::RimPlace> read_lift_table(TomlTable& mould) {
   return table;
 }
 
+mpm::ElasticSlab read_slab(TomlTable& base, Assumptions& assumptions) {
+  mpm::ElasticSlab slab;
+  const auto given = [&](std::string_view key, const Range& accepted, double unit, double& value) {
+    if (const auto number = base.number_if(key, accepted)) {
+      value = unit * *number;
+    } else {
+      assumptions.add(fmt::format("{} of the elastic base not given, {:.6g} assumed", key, value / unit));
+    }
+  };
+  given("thickness_mm", kLength_mm, 1e-3, slab.thickness);
+  given("length_mm", kLength_mm, 1e-3, slab.length);
+  given("youngs_modulus_kPa", kYoung_kPa, 1e3, slab.youngs_modulus);
+  given("poissons_ratio", kPoisson, 1.0, slab.poissons_ratio);
+  return slab;
+}
+
 }  // namespace
 
 mpm::Mould read_mould(TomlTable mould, Assumptions& assumptions) {
@@ -92,7 +111,7 @@ mpm::Base read_base(TomlTable& parent, Assumptions& assumptions) {
     assumptions.add("base not given, rough assumed");
     return {};
   }
-  constexpr std::array<std::string_view, 3> kKinds{"rough", "limited", "navier"};
+  constexpr std::array<std::string_view, 4> kKinds{"rough", "limited", "navier", "elastic"};
   const auto kind = base->choice_if("kind", kKinds);
   if (!kind) assumptions.add("base not given, rough assumed");
   mpm::Base result;
@@ -101,9 +120,30 @@ mpm::Base read_base(TomlTable& parent, Assumptions& assumptions) {
     result.friction.friction = base->number_if("friction", kFriction).value_or(0.0);
   } else if (kind == std::size_t{2}) {
     result.friction.slip_length = 1e-3 * base->number("slip_length_mm", kDistance_mm);
+  } else if (kind == std::size_t{3}) {
+    result.slab = read_slab(*base, assumptions);
   }
   base->reject_unknown_keys();
   return result;
+}
+
+void check_slab(TomlTable& parent, const model::Parameters<double>& material, const mpm::SlumpSetup& setup) {
+  if (!setup.base.slab) return;
+  const mpm::ElasticSlab& slab = *setup.base.slab;
+  TomlTable base = parent.table("base");
+  const double radius = 0.5 * setup.mould.diameter;
+  if (slab.length <= radius) {
+    throw base.error("length_mm", fmt::format("{:.6g} is out of range", 1e3 * slab.length),
+                     fmt::format("more than the mould's radius, {:.6g}", 1e3 * radius));
+  }
+  const double settlement = slab.settlement(mpm::fill_pressure(material, setup));
+  const double limit = mpm::kLargestSettlement * setup.numerics.cell_size;
+  if (settlement <= limit) return;
+  throw base.error("youngs_modulus_kPa",
+                   fmt::format("{:.6g}, with which the fill settles by {:.3g} mm,",
+                               1e-3 * slab.youngs_modulus, 1e3 * settlement),
+                   fmt::format("about {:.3g} or more, with which it settles by a twentieth of a cell",
+                               1e-3 * slab.youngs_modulus * settlement / limit));
 }
 
 }  // namespace isotach::datasets

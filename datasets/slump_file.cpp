@@ -47,6 +47,7 @@ SlumpFile read_slump_file(const std::filesystem::path& file, const ReadOptions& 
   setup.base = read_base(root, assumptions);
   setup.numerics = read_numerics(root);
   check_cell_size(root, setup);
+  check_slab(root, material, setup);
   setup.times = read_times(root.table("output"));
   return {file, std::move(material), std::move(setup), std::move(texts)};
 }

@@ -47,6 +47,7 @@ SlumpTest read_slump_test(TomlTable table, TomlTable& root, Study& study, std::s
   test.setup.base = read_base(table, assumptions);
   test.setup.numerics = read_numerics(root);
   check_cell_size(root, test.setup);
+  check_slab(table, study.material, test.setup);
   test.noise = read_slump_noise(table, assumptions);
   test.hold_out = table.boolean_if("hold_out").value_or(false);
   table.reject_unknown_keys();

@@ -43,11 +43,17 @@ void refuse_effects(TomlTable& root);
 /// which are assumed where absent.
 [[nodiscard]] mpm::Mud read_mud(TomlTable mud, Assumptions& assumptions);
 
-/// kind = "rough", assumed where absent. `parent` is the table that may hold [base].
+/// kind = "rough" (assumed where absent), "limited" with shear_limit_kPa and friction, "navier" with
+/// slip_length_mm, or "elastic" with thickness_mm, length_mm, youngs_modulus_kPa and poissons_ratio, which
+/// are assumed where absent. `parent` is the table that may hold [base].
 [[nodiscard]] mpm::Base read_base(TomlTable& parent, Assumptions& assumptions);
 
 /// [numerics] of `root`, every key optional.
 [[nodiscard]] mpm::Numerics read_numerics(TomlTable& root);
+
+/// InputError where an elastic base is no wider than the mould, or softer than a simulation can follow.
+/// `parent` is the table that holds [base].
+void check_slab(TomlTable& parent, const model::Parameters<double>& material, const mpm::SlumpSetup& setup);
 
 /// InputError where the cells of [numerics] in `root` are larger than the mould's radius.
 void check_cell_size(TomlTable& root, const mpm::SlumpSetup& setup);

@@ -1,8 +1,9 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// The state the mud starts from: void ratio, pressures, density.
+// The state the mud starts from: void ratio, pressures, density, weight.
 #include <cmath>
 
 #include "model/law.hpp"
+#include "mpm/gravity.hpp"
 #include "mpm/slump.hpp"
 
 namespace isotach::mpm {
@@ -38,6 +39,10 @@ InitialState initial_state(const model::Parameters<double>& parameters, const Mu
   state.density = kWaterDensity * (mud.specific_gravity + state.void_ratio) / (1.0 + state.void_ratio);
   state.undrained_strength = state.preconsolidation_pressure * strength_ratio(law, state.strength_rate);
   return state;
+}
+
+double fill_pressure(const model::Parameters<double>& parameters, const SlumpSetup& setup) {
+  return initial_state(parameters, setup.mud).density * kGravity * setup.mould.fill_height;
 }
 
 }  // namespace isotach::mpm

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "mpm/gravity.hpp"
 #include "mpm/mould_contact.hpp"
 #include "mpm/resting_pressure.hpp"
 #include "mpm/slab_engine.hpp"
@@ -14,7 +15,6 @@ namespace isotach::mpm {
 
 namespace {
 
-constexpr double kGravity = 9.81;             // m/s2
 constexpr double kDomainRadii = 6.0;          // width of the grid in mould radii
 constexpr double kDomainHeights = 1.25;       // height of the grid in fill heights
 constexpr double kLeastPressureShare = 1e-3;  // of the initial p': below it the skeleton has lost contact
@@ -87,10 +87,6 @@ Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const
 }
 
 }  // namespace
-
-double fill_pressure(const model::Parameters<double>& parameters, const SlumpSetup& setup) {
-  return initial_state(parameters, setup.mud).density * kGravity * setup.mould.fill_height;
-}
 
 SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup& setup)
     : setup_(setup),

@@ -80,11 +80,34 @@ TEST_F(SlumpFileTest, WallsBasesAndLiftsComeOutInSI) {
   EXPECT_DOUBLE_EQ(with("[base]\nkind = \"limited\"\nshear_limit_kPa = 0.1").base.friction.adhesion, 100.0);
   EXPECT_DOUBLE_EQ(with("[base]\nkind = \"navier\"\nslip_length_mm = 2").base.friction.slip_length, 0.002);
   EXPECT_FALSE(with("[base]\nkind = \"rough\"").base.friction.yields());
+  EXPECT_FALSE(with("[base]\nkind = \"rough\"").base.slab.has_value());
+  const mpm::Base elastic = with(
+                                "[base]\nkind = \"elastic\"\nthickness_mm = 6\nlength_mm = 150\n"
+                                "youngs_modulus_kPa = 2000\npoissons_ratio = 0.2")
+                                .base;
+  ASSERT_TRUE(elastic.slab.has_value());
+  EXPECT_DOUBLE_EQ(elastic.slab->thickness, 0.006);
+  EXPECT_DOUBLE_EQ(elastic.slab->length, 0.15);
+  EXPECT_DOUBLE_EQ(elastic.slab->youngs_modulus, 2e6);
+  EXPECT_DOUBLE_EQ(elastic.slab->poissons_ratio, 0.2);
+  EXPECT_FALSE(elastic.friction.yields());
   const mpm::Mould filmed =
       setup("lift_speed_m_per_s = 0.01", "lift_times_s = [0.2, 1, 3]\nlift_heights_mm = [0, 10, 160]").mould;
   ASSERT_EQ(filmed.lift_table.size(), 3U);
   EXPECT_DOUBLE_EQ(filmed.rim(1.0), 0.01);
   EXPECT_DOUBLE_EQ(filmed.rim(2.0), 0.085);
+}
+
+// Pippi et al.'s slab, 5 mm thick and 0.2 m long; its stiffness they do not give.
+TEST_F(SlumpFileTest, AnElasticBaseIsTheSeedsWhereNothingElseIsSaid) {
+  const SlumpFile slump = read_slump_file(folder_.write(
+      "slump.toml", replaced(std::string(kSlump), "[mould]", "[base]\nkind = \"elastic\"\n[mould]")));
+  ASSERT_TRUE(slump.setup.base.slab.has_value());
+  EXPECT_DOUBLE_EQ(slump.setup.base.slab->thickness, 0.005);
+  EXPECT_DOUBLE_EQ(slump.setup.base.slab->length, 0.2);
+  EXPECT_DOUBLE_EQ(slump.setup.base.slab->youngs_modulus, 1e6);
+  EXPECT_DOUBLE_EQ(slump.setup.base.slab->poissons_ratio, 0.3);
+  EXPECT_EQ(slump.assumptions.size(), 7U);  // specific gravity, OCR, wall, four of the base
 }
 
 TEST_F(SlumpFileTest, MistakesInWallsBasesAndLiftsAreNamed) {
@@ -104,6 +127,14 @@ TEST_F(SlumpFileTest, MistakesInWallsBasesAndLiftsAreNamed) {
   refused("lift_times_s = [0, 1]\nlift_heights_mm = [2, 1]", {"key lift_heights_mm", "1 follows 2"});
   refused(speed + "lift_times_s = [0, 1]\nlift_heights_mm = [0, 1]", {"key lift_speed_m_per_s", "not both"});
   refused(speed + "[base]\nkind = \"limited\"", {"key shear_limit_kPa in [base]: it is missing"});
+  const std::string elastic = speed + "[base]\nkind = \"elastic\"\n";
+  refused(elastic + "thickness_mm = 0", {"slump.toml:18: key thickness_mm in [base]", "0 is out of range"});
+  refused(elastic + "poissons_ratio = 0.5", {"key poissons_ratio", "0.5 is out of range", "<= 0.45"});
+  refused(elastic + "youngs_modulus_kPa = -1", {"key youngs_modulus_kPa", "-1 is out of range", "> 0"});
+  refused(elastic + "length_mm = 39", {"slump.toml:18: key length_mm", "more than the mould's radius, 39"});
+  refused(elastic + "slip_length_mm = 1", {"key slip_length_mm", "it is unknown"});
+  refused(elastic + "youngs_modulus_kPa = 2",
+          {"slump.toml:18: key youngs_modulus_kPa in [base]: 2, with which", "a twentieth of a cell"});
   refused(speed + "[base]\nkind = \"rough\"\nslip_length_mm = 1", {"key slip_length_mm", "it is unknown"});
 }
 

@@ -246,8 +246,8 @@ TEST_F(StudyFile, AnUnknownKeyIsAnErrorAtEveryLevel) {
 TEST_F(StudyFile, ChoicesAreNamed) {
   expect_refused("wall = \"rough\"", "wall = \"sticky\"",
                  {"study.toml:37", "\"sticky\"", "\"smooth\" or \"rough\""});
-  expect_refused("kind = \"rough\"", "kind = \"elastic\"",
-                 {"study.toml:43", "\"elastic\"; accepted: \"rough\""});
+  expect_refused("kind = \"rough\"", "kind = \"springy\"",
+                 {"study.toml:43", "\"springy\"; accepted: \"rough\"", "\"elastic\""});
   expect_refused("gauge = \"fixed\"", "gauge = 3",
                  {"study.toml:12", "\"crs-rate\" or \"fixed\" or \"none\""});
 }
