@@ -158,6 +158,7 @@ void add_summary(Page& page, const datasets::SlumpFile& test, const SlumpResult&
                         format_number(kMillimetres * test.setup.mould.diameter, 3),
                         format_number(kMillimetres * test.setup.mould.fill_height, 3),
                         format_number(test.setup.mould.lift_speed, 2), words_of(test.setup.mould.wall)));
+  page.fact("Base", words_of(test.setup.base));
   page.fact("Mud",
             fmt::format("e0 = {}, density {} kg/m³, OCR at the start {}, C_u = {} kPa at |D| = {} 1/s",
                         format_number(result.initial.void_ratio), format_number(result.initial.density),

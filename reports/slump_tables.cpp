@@ -126,15 +126,35 @@ std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {
   return indices;
 }
 
-std::string words_of(const mpm::Wall& wall) {
-  if (wall.is_smooth()) return "smooth";
-  if (wall.is_rough()) return "rough";
+namespace {
+
+std::string words_of_limit(double adhesion, double friction) {
   std::string words;
-  if (wall.adhesion > 0.0) words = fmt::format("adhesion {} kPa", format_number(1e-3 * wall.adhesion, 3));
-  if (wall.friction > 0.0) {
-    words += fmt::format("{}friction {}", words.empty() ? "" : ", ", format_number(wall.friction, 3));
+  if (adhesion > 0.0) words = fmt::format("adhesion {} kPa", format_number(1e-3 * adhesion, 3));
+  if (friction > 0.0) {
+    words += fmt::format("{}friction {}", words.empty() ? "" : ", ", format_number(friction, 3));
   }
-  return words;
+  return words.empty() ? "smooth" : words;
+}
+
+}  // namespace
+
+std::string words_of(const mpm::Wall& wall) {
+  return wall.is_rough() ? "rough" : words_of_limit(wall.adhesion, wall.friction);
+}
+
+std::string words_of(const mpm::Base& base) {
+  if (base.slab) {
+    const mpm::ElasticSlab& slab = *base.slab;
+    return fmt::format("elastic slab, {} mm thick, to {} mm from the axis, E = {} kPa, ν = {}, rough",
+                       format_number(kMillimetres * slab.thickness, 3),
+                       format_number(kMillimetres * slab.length, 3),
+                       format_number(1e-3 * slab.youngs_modulus, 3), format_number(slab.poissons_ratio, 2));
+  }
+  if (base.friction.slip_length > 0.0) {
+    return fmt::format("slip length {} mm", format_number(kMillimetres * base.friction.slip_length, 3));
+  }
+  return base.friction.limited() ? words_of_limit(base.friction.adhesion, base.friction.friction) : "rough";
 }
 
 }  // namespace isotach::reports

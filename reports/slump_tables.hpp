@@ -39,4 +39,7 @@ struct NamedRun {
 /// The mould's wall in words: "smooth", "rough", or its limits.
 [[nodiscard]] std::string words_of(const mpm::Wall& wall);
 
+/// What the mud stands on in words: "rough", or its limits, its slip length, its slab.
+[[nodiscard]] std::string words_of(const mpm::Base& base);
+
 }  // namespace isotach::reports

@@ -57,6 +57,23 @@ TEST(SlumpReport, ShowsFieldsAndMovesWhereTheRunTookFrames) {
   EXPECT_EQ(count("Strain rate and overconsolidation"), 0U);
 }
 
+TEST(SlumpReport, SaysWhatTheMudStandsOn) {
+  datasets::SlumpFile test = short_slump_test();
+  const auto html = [&] { return slump_report(run_of("slump"), test, short_slump()).html(); };
+  mpm::Base& base = test.setup.base;
+  base = {};
+  expect_parts(html(), {"Base", "rough"});
+  base.friction.adhesion = 50.0;
+  base.friction.friction = 0.25;
+  expect_parts(html(), {"adhesion 0.05 kPa, friction 0.25"});
+  base.friction = {};
+  base.friction.slip_length = 0.002;
+  expect_parts(html(), {"slip length 2 mm"});
+  base.friction = {};
+  base.slab = mpm::ElasticSlab{};
+  expect_parts(html(), {"elastic slab, 5 mm thick, to 200 mm from the axis, E = 1000 kPa, ν = 0.3, rough"});
+}
+
 TEST(SlumpReport, WarnsOfBudgetsThatDoNotClose) {
   mpm::SlumpResult result = short_slump();
   result.volume_error = 0.001;
