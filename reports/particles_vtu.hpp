@@ -10,7 +10,8 @@
 namespace isotach::reports {
 
 /// Writes "particles/frame_001.vtu" and so on, one for each snapshot, and the collection "particles.pvd" with
-/// their times (s), which is what to open in ParaView.
+/// their times (s), which is what to open in ParaView. tests/consumer/particles_in_vtk.py reads them with
+/// VTK.
 ///
 /// A frame is a VTK UnstructuredGrid of vertices at (r, z, 0) in m with Float64 point data, base64 inline.
 /// The unit is in the name of each; stresses and pressures are compression positive.
