@@ -78,6 +78,7 @@ void add_input(CLI::App& line, CommonOptions& common, const char* what);
 [[nodiscard]] Runner element_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner fit_oedometer_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner fit_slump_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner profile_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner slump_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner verify_command(CLI::App& line, CommonOptions& common);
 

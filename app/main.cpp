@@ -29,6 +29,8 @@ constexpr Command kCommands[] = {
      isotach::app::fit_oedometer_command},
     {"fit-slump", "I_v and C_1 (as the study says) from measured slump outlines",
      isotach::app::fit_slump_command},
+    {"profile", "outlines of a slump from photographs or the frames of a video",
+     isotach::app::profile_command},
     {"slump", "one slump test by the material point method", isotach::app::slump_command},
     {"verify", "the law and its integration against references, closed forms and each other",
      isotach::app::verify_command},

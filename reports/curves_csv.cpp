@@ -40,22 +40,6 @@ void write_convergence(OutputDirectory& output, const std::string& name,
   output.write_csv(name, columns);
 }
 
-/// Outlines in the format of a study's data.
-void write_outlines(OutputDirectory& output, const std::string& name,
-                    const std::vector<mpm::Outline>& outlines) {
-  Column time;
-  Column r;
-  Column z;
-  for (const mpm::Outline& outline : outlines) {
-    for (const mpm::OutlinePoint& point : outline.points) {
-      time.push_back(outline.time);
-      r.push_back(kMillimetres * point.r);
-      z.push_back(kMillimetres * point.z);
-    }
-  }
-  output.write_csv(name, std::vector<CsvColumn>{{"time_s", time}, {"r_mm", r}, {"z_mm", z}});
-}
-
 void write_distances(OutputDirectory& output, const std::string& name,
                      const calibration::SlumpComparison& comparison) {
   const experiments::SlumpExperiment& test = *comparison.experiment;
@@ -84,6 +68,21 @@ void write_distances(OutputDirectory& output, const std::string& name,
 }
 
 }  // namespace
+
+void write_outlines(OutputDirectory& output, const std::string& name,
+                    const std::vector<mpm::Outline>& outlines) {
+  Column time;
+  Column r;
+  Column z;
+  for (const mpm::Outline& outline : outlines) {
+    for (const mpm::OutlinePoint& point : outline.points) {
+      time.push_back(outline.time);
+      r.push_back(kMillimetres * point.r);
+      z.push_back(kMillimetres * point.z);
+    }
+  }
+  output.write_csv(name, std::vector<CsvColumn>{{"time_s", time}, {"r_mm", r}, {"z_mm", z}});
+}
 
 void write_curves(OutputDirectory& output, const calibration::OedometerFit& fit) {
   write_oedometer_curves(output, fit);

@@ -23,6 +23,10 @@ void write_curves(OutputDirectory& output, const calibration::SlumpFit& fit);
 /// The curves of both fits.
 void write_curves(OutputDirectory& output, const calibration::Calibration& calibration);
 
+/// Outlines in the format of a study's data: time_s, r_mm, z_mm.
+void write_outlines(OutputDirectory& output, const std::string& name,
+                    const std::vector<mpm::Outline>& outlines);
+
 /// outlines.csv (as the data format) and history.csv: time_s, height_mm, toe_mm, kinetic_J, potential_J,
 /// stress_work_J, boundary_work_J, volume_mm3, inertia_scaling.
 void write_curves(OutputDirectory& output, const mpm::SlumpResult& result);

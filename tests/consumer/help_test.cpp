@@ -16,6 +16,11 @@ const std::map<std::string, std::vector<std::string>> kCommands{
      {" TEST", "--max-file-mb", "--integrator", "fellin-ostermann", "cvode", "rosenbrock", "--tolerance"}},
     {"fit-oedometer", {" STUDY", "--max-file-mb"}},
     {"fit-slump", {" STUDY", "--max-file-mb"}},
+    {"profile",
+     {" IMAGE", "--scale-mm-per-pixel", "--reference-length-mm", "--mould-picture", "--rectangle",
+      "--circle-point", "--camera-distance-mm", "--base-row", "--axis-column", "--region", "--ignore",
+      "--time-pattern", "--frames-per-second", "--mould-volume-ml", "--volume-limit-percent",
+      "--max-file-mb"}},
     {"slump", {" TEST", "--max-file-mb"}},
     {"verify", {"--sampling", "quick", "full", "--seed"}},
 };
