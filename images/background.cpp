@@ -144,6 +144,7 @@ cv::Mat3f relative_light(const cv::Mat3f& light, const cv::Mat1b& ignored) {
   for (int cell = 0; cell < cells.count(); ++cell) {
     if (cells.counts(cell) && cells.in_margin(cell)) chosen.push_back(cell);
   }
+  if (chosen.empty()) return {light.size(), cv::Vec3f()};  // all margins are ignored: nothing to compare with
   const std::size_t least = chosen.size() / 2;
   int degree = 1;  // margins alone do not hold the curvature
   Surfaces surfaces = fit_all(cells, chosen, degree);

@@ -43,6 +43,7 @@ double otsu(const cv::Mat1f& values, const cv::Mat1b& mask, double least, double
       chosen.push_back(cv::saturate_cast<unsigned char>(factor * (values(row, column) - least)));
     }
   }
+  if (chosen.empty()) return greatest;  // nothing is looked at, and nothing will stand out
   cv::Mat ignored;
   return least +
          (cv::threshold(chosen, ignored, 0.0, 1.0, cv::THRESH_BINARY | cv::THRESH_OTSU) + 0.5) / factor;
