@@ -62,6 +62,13 @@ images::Looked looked_of(const PictureOptions& options) {
   return looked;
 }
 
+/// A row or a column is one of the picture's `count`.
+void require_inside(const char* option, const std::optional<double>& place, int count) {
+  if (!place || (*place >= 0.0 && *place <= count - 1.0)) return;
+  throw InputError(FilePlace{"command line"}, option, fmt::format("{}", *place),
+                   fmt::format("0 to {}, within the picture", count - 1));
+}
+
 images::TimeRule time_rule_of(const PictureOptions& options) {
   images::TimeRule rule = options.time;
   const bool frames = rule.frames_per_second.has_value();
@@ -127,6 +134,8 @@ int profile(const CommonOptions& common, const PictureOptions& options) {
   series.profile.looked = looked_of(options);
   const images::Picture first = images::read_picture(options.pictures.front(), max_bytes);
   (void)images::looked_area(first, series.profile.looked);
+  require_inside("--base-row", options.base_row, first.codes.rows);
+  require_inside("--axis-column", options.axis_column, first.codes.cols);
   const auto [view, view_words] = view_of(options.view, first.codes.size(), series.profile.looked, max_bytes);
   series.profile.base_row = options.base_row;
   series.profile.axis_column = options.axis_column;

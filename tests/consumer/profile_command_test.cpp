@@ -165,6 +165,10 @@ TEST_F(ProfileCommand, MistakesOnTheLineAreRefused) {
   refuse({"--scale-mm-per-pixel", "0.4", "--fill-height-mm", "70"}, {"--mould-diameter-mm"});
   refuse({"--scale-mm-per-pixel", "0.4", "--region", "0,0,900,100"}, {"--region", "600 by 280"});
   refuse({"--scale-mm-per-pixel", "0.4", "--ignore", "0,0,1.5,100"}, {"--ignore", "whole pixels"});
+  refuse({"--scale-mm-per-pixel", "0.4", "--base-row", "-3"}, {"--base-row", "0 to 279"});
+  refuse({"--scale-mm-per-pixel", "0.4", "--base-row", "0"}, {"refused"});
+  refuse({"--scale-mm-per-pixel", "0.4", "--axis-column", "600"}, {"--axis-column", "0 to 599"});
+  refuse({"--scale-mm-per-pixel", "0.4", "--ignore", "0,0,600,280"}, {"refused"});
   refuse({"--scale-mm-per-pixel", "0.4", "--start-frame", "3"}, {"--start-s"});
   refuse({"text-3s.png", "--scale-mm-per-pixel", "0.4"}, {"text-3s.png", "no picture"});
   refuse({"other-4s.png", "--scale-mm-per-pixel", "0.4"}, {"other-4s.png", "300 by 300"});
