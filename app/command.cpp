@@ -52,6 +52,10 @@ CLI::Validator number_between(double least, double greatest) {
 
 void add_input(CLI::App& line, CommonOptions& common, const char* what) {
   line.add_option(what, common.input, "a TOML file")->required();
+  add_file_limit(line, common);
+}
+
+void add_file_limit(CLI::App& line, CommonOptions& common) {
   line.add_option("--max-file-mb", common.max_file_megabytes, "largest input file accepted, in MB")
       ->check(number_between(1e-6, 1e6))
       ->capture_default_str();

@@ -72,6 +72,8 @@ struct Command {
 
 /// The input file as a positional argument called `what`, and the limit of its size.
 void add_input(CLI::App& line, CommonOptions& common, const char* what);
+/// The limit of an input file's size alone.
+void add_file_limit(CLI::App& line, CommonOptions& common);
 
 // The commands.
 [[nodiscard]] Runner calibrate_command(CLI::App& line, CommonOptions& common);

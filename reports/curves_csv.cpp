@@ -104,8 +104,8 @@ void write_curves(OutputDirectory& output, const calibration::Calibration& calib
   write_curves(output, calibration.slump);
 }
 
-void write_curves(OutputDirectory& output, const mpm::SlumpResult& result) {
-  write_outlines(output, "outlines.csv", result.outlines);
+void write_curves(OutputDirectory& output, const mpm::SlumpResult& result, const std::string& folder) {
+  write_outlines(output, folder + "outlines.csv", result.outlines);
   std::vector<CsvColumn> columns;
   const auto add = [&](const char* header, double mpm::HistoryRow::*quantity, double factor) {
     Column values;
@@ -121,7 +121,7 @@ void write_curves(OutputDirectory& output, const mpm::SlumpResult& result) {
   add("boundary_work_J", &mpm::HistoryRow::boundary_work, 1.0);
   add("volume_mm3", &mpm::HistoryRow::volume, kMillimetres * kMillimetres * kMillimetres);
   add("inertia_scaling", &mpm::HistoryRow::inertia_scaling, 1.0);
-  output.write_csv("history.csv", columns);
+  output.write_csv(folder + "history.csv", columns);
 }
 
 }  // namespace isotach::reports

@@ -28,7 +28,8 @@ void write_outlines(OutputDirectory& output, const std::string& name,
                     const std::vector<mpm::Outline>& outlines);
 
 /// outlines.csv (as the data format) and history.csv: time_s, height_mm, toe_mm, kinetic_J, potential_J,
-/// stress_work_J, boundary_work_J, volume_mm3, inertia_scaling.
-void write_curves(OutputDirectory& output, const mpm::SlumpResult& result);
+/// stress_work_J, boundary_work_J, volume_mm3, inertia_scaling. In a folder of the output ("test-1/"), or in
+/// the output itself.
+void write_curves(OutputDirectory& output, const mpm::SlumpResult& result, const std::string& folder = {});
 
 }  // namespace isotach::reports

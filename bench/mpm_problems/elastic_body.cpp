@@ -16,28 +16,26 @@ using mpm::Body;
 using mpm::Engine;
 using mpm::Particles;
 
-/// A force a mass on points with mass, and a traction on points without: those of a loaded side, whose area
+/// A force on each point: a given one times its mass, or on a loaded side a traction times its area, which
 /// stands in omega[2] (m2/rad).
 class GivenForce final : public mpm::PointForce {
  public:
-  GivenForce(Field force, Field traction) : force_(std::move(force)), traction_(std::move(traction)) {}
+  enum class Amount { mass, area };
+  GivenForce(Field force, Amount amount) : force_(std::move(force)), amount_(amount) {}
 
   void add(const mpm::ForceBlock& block) const override {
     const Particles& q = block.particles;
+    const std::vector<double>& amounts = amount_ == Amount::mass ? q.mass : q.omega[2];
     for (std::size_t p = 0; p < block.count; ++p) {
       const std::size_t i = block.begin + p;
-      const bool loaded_side = q.mass[i] == 0.0;
-      const Field& field = loaded_side ? traction_ : force_;
-      if (!field) continue;
-      const Pair value = field(start_of(q, i), block.time);
-      const double amount = loaded_side ? q.omega[2][i] : q.mass[i];
-      block.loads.add(p, amount * value.r, amount * value.z);
+      const Pair value = force_(start_of(q, i), block.time);
+      block.loads.add(p, amounts[i] * value.r, amounts[i] * value.z);
     }
   }
 
  private:
   Field force_;
-  Field traction_;
+  Amount amount_;
 };
 
 std::unique_ptr<const mpm::Material> elastic(const ElasticConstants& material) {
@@ -137,9 +135,10 @@ MotionErrors follow(const ElasticProblem& problem, double cell, double duration,
   Body box = elastic_box(problem.width, problem.height, cell, problem.symmetry, problem.material, numerics);
   set_velocities(box.particles, problem, -0.5 * dt);
   engine.add(std::move(box));
-  if (problem.traction) engine.add(loaded_side(problem, cell, numerics));
-  if (problem.force || problem.traction) {
-    engine.add(std::make_unique<GivenForce>(problem.force, problem.traction));
+  if (problem.force) engine.add(std::make_unique<GivenForce>(problem.force, GivenForce::Amount::mass));
+  if (problem.traction) {
+    engine.add(loaded_side(problem, cell, numerics));
+    engine.add(std::make_unique<GivenForce>(problem.traction, GivenForce::Amount::area), 1);
   }
 
   MotionErrors result;

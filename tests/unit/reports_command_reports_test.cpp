@@ -25,7 +25,7 @@ TEST(SlumpFitReport, ShowsOutlinesAndSaysWhatCannotBeKnown) {
   const std::string html =
       slump_fit_report(run_of("fit-slump"), small_study(), small_calibration().slump).html();
   expect_parts(html, {"slump-2", "slump-4 (held out)", "slump-4.csv", "factor (1 − C_1) on the rate",
-                      "1.5 Pa s beside the law", "bulk modulus of the water 300 kPa", "Floored", "13.0 mm"});
+                      "0.20 Pa s beside the law", "bulk modulus of the water 300 kPa", "Floored", "13.0 mm"});
   // two tests; cost, I_v and C_1 against evaluations
   EXPECT_EQ(count(html, "<svg "), 5U);
 }
@@ -65,13 +65,14 @@ TEST(SlumpReport, SaysWhatTheMudStandsOn) {
   expect_parts(html(), {"Base", "rough"});
   base.friction.adhesion = 50.0;
   base.friction.friction = 0.25;
-  expect_parts(html(), {"adhesion 0.05 kPa, friction 0.25"});
+  expect_parts(html(), {"adhesion 0.0500 kPa, friction 0.250"});
   base.friction = {};
   base.friction.slip_length = 0.002;
-  expect_parts(html(), {"slip length 2 mm"});
+  expect_parts(html(), {"slip length 2.00 mm"});
   base.friction = {};
   base.slab = mpm::ElasticSlab{};
-  expect_parts(html(), {"elastic slab, 5 mm thick, to 200 mm from the axis, E = 1000 kPa, ν = 0.3, rough"});
+  expect_parts(html(),
+               {"elastic slab, 5.00 mm thick, to 200 mm from the axis, E = 1000 kPa, ν = 0.30, rough"});
 }
 
 TEST(SlumpReport, WarnsOfBudgetsThatDoNotClose) {
