@@ -51,7 +51,8 @@ const mpm::Outline& outline_at(const ComparedSlump& slump, std::optional<double>
 
 Figure outlines_figure(const Slumps& slumps, std::optional<double> time) {
   Figure figure = meridian_figure();
-  figure.title = time ? time_label(*time) : "at the last output time of each";
+  figure.caption =
+      fmt::format("Outlines {}.", time ? "at " + time_label(*time) : "at the last output time of each");
   std::size_t colour = 0;
   for (const ComparedSlump* slump : slumps) {
     Series outline = outline_series(outline_at(*slump, time), slump->name);
@@ -144,14 +145,16 @@ Table inputs_table(std::span<const ComparedSlump> slumps) {
 }
 
 Table extent_table(const Slumps& slumps, const std::vector<double>& times) {
-  Table table{
-      .caption = "Heights and toes (mm) at the output times that all slumps have, and at the end of each.",
-      .header = {"Slump"},
-      .alignment = {Alignment::left}};
+  Table table{.caption = "Heights and toes (mm) at the output times that all slumps have.",
+              .header = {"Slump"},
+              .alignment = {Alignment::left}};
   std::vector<std::optional<double>> columns(times.begin(), times.end());
-  columns.emplace_back();
+  const bool all_end_together = std::all_of(slumps.begin(), slumps.end(), [&](const ComparedSlump* slump) {
+    return !times.empty() && slump->test.setup.times.back() == times.back();
+  });
+  if (!all_end_together) columns.emplace_back();
   for (const auto& time : columns) {
-    const std::string when = time ? time_label(*time) : "the end";
+    const std::string when = time ? time_label(*time) : "at its end";
     table.header.insert(table.header.end(), {"Height, " + when, "Toe, " + when});
     table.alignment.insert(table.alignment.end(), {Alignment::right, Alignment::right});
   }
