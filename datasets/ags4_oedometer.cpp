@@ -12,14 +12,13 @@
 
 #include "datasets/delimited_line.hpp"
 #include "datasets/load_steps.hpp"
+#include "datasets/soil_ranges.hpp"
 #include "datasets/study_sections.hpp"
 
 namespace isotach::datasets {
 namespace {
 
-constexpr Range kLength_mm = Range::positive(1000.0);
-constexpr Range kWaterContent_pct = Range::positive(4000.0);
-constexpr Range kDensity{0.5, 5.0};             // Mg/m3, of soils
+constexpr Range kSpecimenLength_mm = Range::positive(1000.0);
 constexpr Range kGrainDensity{1.0, 8.0, true};  // likewise, of grains
 constexpr Range kStress{0.0, 1e6};              // kPa; 0 where unloaded to nothing
 constexpr double kGravity = 9.80665;            // m/s2
@@ -84,7 +83,7 @@ class SpecimenRow {
 
   std::optional<double> length(std::string_view heading) {
     require_unit(file_, group_, heading, "mm");
-    const auto value = number(heading, kLength_mm);
+    const auto value = number(heading, kSpecimenLength_mm);
     return value ? std::optional(1e-3 * *value) : std::nullopt;
   }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "datasets/load_steps.hpp"
+#include "datasets/soil_ranges.hpp"
 
 namespace isotach::datasets {
 namespace {
@@ -17,8 +18,6 @@ namespace {
 constexpr Range kStepTime_s{0.0, 1e9};
 constexpr Range kLoad_kPa = Range::positive(1e6);
 constexpr Range kStrain_pct{-100.0, 100.0, true, true};
-constexpr Range kWaterContent_pct = Range::positive(4000.0);
-constexpr Range kDensity{0.5, 5.0};
 
 /// What the registry's word for a step says.
 Stage step_type(const CsvTable& table, std::size_t row, std::size_t column) {

@@ -14,7 +14,7 @@ constexpr Range kLength_mm = Range::positive(10000.0);
 constexpr Range kDistance_mm{0.0, 10000.0};
 constexpr Range kShear_kPa{0.0, 1000.0};
 constexpr Range kFriction{0.0, 10.0};
-constexpr Range kTime_s{0.0, 1e7};
+constexpr Range kSlumpTime_s{0.0, 1e7};
 constexpr Range kYoung_kPa = Range::positive(1e9);
 constexpr Range kPoisson{0.0, 0.45};
 
@@ -37,7 +37,7 @@ mpm::Wall read_wall(TomlTable& mould, Assumptions& assumptions) {
 std::vector<mpm::RimPlace> read_lift_table(TomlTable& mould) {
   constexpr std::string_view kTimes = "lift_times_s";
   constexpr std::string_view kHeights = "lift_heights_mm";
-  const auto times = mould.numbers_if(kTimes, kTime_s, "two or more increasing times");
+  const auto times = mould.numbers_if(kTimes, kSlumpTime_s, "two or more increasing times");
   const auto heights = mould.numbers_if(kHeights, kDistance_mm, "as many heights, none below the one before");
   if (!times && !heights) return {};
   if (!times || !heights) {
@@ -99,7 +99,7 @@ mpm::Mould read_mould(TomlTable mould, Assumptions& assumptions) {
     const mpm::RimPlace& last = result.lift_table.back();
     result.lift_speed = (last.height - first.height) / (last.time - first.time);  // the mean, for reports
   }
-  result.lift_delay = mould.number_if("lift_delay_s", kTime_s).value_or(0.0);
+  result.lift_delay = mould.number_if("lift_delay_s", kSlumpTime_s).value_or(0.0);
   result.wall = read_wall(mould, assumptions);
   mould.reject_unknown_keys();
   return result;

@@ -17,7 +17,7 @@ Range range_of(const ParameterInfo& parameter) {
 }
 
 /// Specimens and moulds of a laboratory; what is larger is a mistake of unit.
-constexpr Range kLength_mm = Range::positive(10000.0);
+constexpr Range kCellSize_mm = Range::positive(10000.0);
 
 }  // namespace
 
@@ -96,7 +96,7 @@ mpm::Numerics read_numerics(TomlTable& root) {
   mpm::Numerics result;
   auto numerics = root.table_if("numerics");
   if (!numerics) return result;
-  if (const auto size = numerics->number_if("cell_size_mm", kLength_mm)) result.cell_size = 1e-3 * *size;
+  if (const auto size = numerics->number_if("cell_size_mm", kCellSize_mm)) result.cell_size = 1e-3 * *size;
   if (const auto points = numerics->number_if("points_per_cell", {4.0, 100.0})) {
     const double side = std::round(std::sqrt(*points));
     if (side * side != *points) {

@@ -7,13 +7,12 @@
 #include "reports/estimates.hpp"
 #include "reports/file_stems.hpp"
 #include "reports/oedometer_curves_csv.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
 
 using Column = std::vector<double>;
-
-constexpr double kMillimetres = 1e3;  // in a metre
 
 void write_convergence(OutputDirectory& output, const std::string& name,
                        const calibration::FitResult& result) {

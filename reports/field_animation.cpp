@@ -14,12 +14,12 @@
 namespace isotach::reports {
 namespace {
 
-constexpr double kTallest = 400.0;    // px, of the map
-constexpr double kHead = 58.0;        // px above the map: time and bar
-constexpr double kBarTop = 26.0;      // px
-constexpr double kBarHeight = 6.0;    // px
-constexpr double kRight = 20.0;       // px
-constexpr double kNarrowest = 320.0;  // px, of a map
+constexpr double kTallest = 400.0;       // px, of the map
+constexpr double kHead = 58.0;           // px above the map: time and bar
+constexpr double kBarTop = 26.0;         // px
+constexpr double kProgressHeight = 6.0;  // px
+constexpr double kRight = 20.0;          // px
+constexpr double kNarrowest = 320.0;     // px, of a map
 
 /// A time (s) with two digits, such as a moving eye can read.
 std::string clock(double time) {
@@ -36,7 +36,7 @@ pugi::xml_node add_bar(pugi::xml_node parent, double left, double width, const c
   bar.append_attribute("x") = left;
   bar.append_attribute("y") = kBarTop;
   bar.append_attribute("width") = fmt::format("{:.1f}", width).c_str();
-  bar.append_attribute("height") = kBarHeight;
+  bar.append_attribute("height") = kProgressHeight;
   bar.append_attribute("fill") = colour;
   return bar;
 }
@@ -46,7 +46,7 @@ void add_time_line(pugi::xml_node svg, double left, double width, double end) {
   add_bar(svg, left, width, "#d4d9de");
   for (const double time : {0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0}) {
     if (time > end * (1.0 + 1e-9)) break;
-    pugi::xml_node text = add_text(svg, left + width * place_of(time, end), kBarTop + kBarHeight + 13.0,
+    pugi::xml_node text = add_text(svg, left + width * place_of(time, end), kBarTop + kProgressHeight + 13.0,
                                    TextAnchor::middle, time_label(time));
     text.append_attribute("font-size") = 11;
   }

@@ -8,11 +8,11 @@
 #include <sstream>
 
 #include "reports/indexed_png.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
 
-constexpr double kMillimetres = 1e3;      // in a metre
 constexpr double kMargin = 1.04;          // of an area around what it shows
 constexpr double kTick = 4.0;             // px
 constexpr double kTickDistance = 45.0;    // px between numbers, at least

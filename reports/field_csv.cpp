@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "reports/units.hpp"
+
 namespace isotach::reports {
 
 void write_fields(OutputDirectory& output, const std::vector<mpm::Frame>& frames) {
-  constexpr double kMillimetres = 1e3;  // in a metre
   std::array<std::vector<double>, 6> columns;
   for (const mpm::Frame& frame : frames) {
     const mpm::FieldMap& map = frame.fields;

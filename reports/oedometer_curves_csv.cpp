@@ -12,6 +12,7 @@
 #include "reports/file_stems.hpp"
 #include "reports/oedometer_view.hpp"
 #include "reports/start_section.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -21,7 +22,6 @@ using calibration::OedometerFit;
 using Column = std::vector<double>;
 using Texts = std::vector<std::string>;
 
-constexpr double kPerPascal = 1e-3;  // kPa
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void write_test(OutputDirectory& output, const std::string& name, const TestView& view) {

@@ -8,14 +8,13 @@
 #include "reports/fit_json.hpp"
 #include "reports/json_number.hpp"
 #include "reports/run_info.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
 
 using calibration::OedometerFit;
 using nlohmann::ordered_json;
-
-constexpr double kPerPascal = 1e-3;  // kPa
 
 ordered_json optional_number(const std::optional<double>& value) {
   return value ? json_number(*value) : ordered_json(nullptr);

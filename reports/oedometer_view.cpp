@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/units.hpp"
+
 namespace isotach::reports {
 namespace {
 
@@ -13,7 +15,6 @@ using experiments::kNoRow;
 using experiments::OedometerExperiment;
 using experiments::PathPoint;
 
-constexpr double kPerPascal = 1e-3;  // kPa
 constexpr int kMostIsotachs = 7;
 
 /// Whitened residuals of the fitted test `fitted`, in the order of its values.

@@ -63,31 +63,32 @@ void add_point_data(pugi::xml_node piece, const mpm::Snapshot& snapshot) {
   const auto& T = points.stress;
   const auto pressure = [&](std::size_t i) { return -(T[0][i] + T[1][i] + T[2][i]) / 3.0; };
 
-  pugi::xml_node data = piece.append_child("PointData");
-  data.append_attribute("Scalars") = "mean_effective_pressure_Pa";
-  data.append_attribute("Vectors") = "velocity_m_per_s";
+  pugi::xml_node point_data = piece.append_child("PointData");
+  point_data.append_attribute("Scalars") = "mean_effective_pressure_Pa";
+  point_data.append_attribute("Vectors") = "velocity_m_per_s";
   std::vector<double> velocity;
   std::vector<double> stress;
   for (std::size_t i = 0; i < n; ++i) {
     velocity.insert(velocity.end(), {points.velocity_r[i], points.velocity_z[i], 0.0});
     stress.insert(stress.end(), {-T[0][i], -T[1][i], -T[2][i], -T[3][i] / std::numbers::sqrt2});
   }
-  add_array(data, "Float64", "velocity_m_per_s", velocity).append_attribute("NumberOfComponents") = 3;
+  add_array(point_data, "Float64", "velocity_m_per_s", velocity).append_attribute("NumberOfComponents") = 3;
   constexpr const char* kStress[] = {"rr", "zz", "hoop", "rz"};
-  name_components(add_array(data, "Float64", "effective_stress_Pa", stress), kStress);
-  add_array(data, "Float64", "mean_effective_pressure_Pa", each(n, pressure));
-  add_array(data, "Float64", "deviatoric_stress_q_Pa", each(n, [&](std::size_t i) {
+  name_components(add_array(point_data, "Float64", "effective_stress_Pa", stress), kStress);
+  add_array(point_data, "Float64", "mean_effective_pressure_Pa", each(n, pressure));
+  add_array(point_data, "Float64", "deviatoric_stress_q_Pa", each(n, [&](std::size_t i) {
               const double p = pressure(i);
               const double squares = (T[0][i] + p) * (T[0][i] + p) + (T[1][i] + p) * (T[1][i] + p) +
                                      (T[2][i] + p) * (T[2][i] + p) + T[3][i] * T[3][i];
               return std::sqrt(1.5 * squares);
             }));
-  add_array(data, "Float64", "pore_pressure_Pa",
+  add_array(point_data, "Float64", "pore_pressure_Pa",
             each(n, [&](std::size_t i) { return snapshot.pore_pressure[i]; }));
-  add_array(data, "Float64", "void_ratio", each(n, [&](std::size_t i) { return points.void_ratio[i]; }));
-  add_array(data, "Float64", "overconsolidation_ratio",
+  add_array(point_data, "Float64", "void_ratio",
+            each(n, [&](std::size_t i) { return points.void_ratio[i]; }));
+  add_array(point_data, "Float64", "overconsolidation_ratio",
             each(n, [&](std::size_t i) { return snapshot.overconsolidation_ratio[i]; }));
-  add_array(data, "Float64", "strain_rate_norm_per_s", snapshot.strain_rate_norm);
+  add_array(point_data, "Float64", "strain_rate_norm_per_s", snapshot.strain_rate_norm);
 }
 
 /// The root of a VTK file.

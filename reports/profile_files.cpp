@@ -9,6 +9,7 @@
 #include "reports/json_number.hpp"
 #include "reports/profile_report.hpp"
 #include "reports/result_head.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -17,7 +18,6 @@ using images::Reading;
 using images::TimedOutcome;
 using nlohmann::ordered_json;
 
-constexpr double kMillimetres = 1e3;  // in a metre
 constexpr double kMillilitres = 1e6;  // in a cubic metre
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 

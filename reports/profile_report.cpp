@@ -13,6 +13,7 @@
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
 #include "reports/slump_tables.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 using images::Reading;
 using images::TimedOutcome;
 
-constexpr double kMillimetres = 1e3;  // in a metre
 constexpr double kMillilitres = 1e6;  // in a cubic metre
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kTimesShown = 7;      // as many as the palette has colours

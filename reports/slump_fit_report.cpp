@@ -11,6 +11,7 @@
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
 #include "reports/slump_tables.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -19,8 +20,7 @@ using calibration::SlumpComparison;
 using calibration::SlumpFit;
 using model::ParameterId;
 
-constexpr std::size_t kTimesShown = 4;
-constexpr double kMillimetres = 1e3;  // in a metre
+constexpr std::size_t kOutlinesShown = 4;
 
 std::string millimetres(double metres, int digits = 3) {
   return format_number(kMillimetres * metres, digits);
@@ -44,7 +44,7 @@ Figure outline_figure(const calibration::TestSummary& summary, const SlumpCompar
       title_of(summary), millimetres(comparison.rms), millimetres(comparison.rms_mould_gone));
   const std::vector<datasets::Outline>& outlines = comparison.experiment->test().outlines;
   std::size_t colour = 0;
-  for (const std::size_t k : spread_indices(outlines.size(), kTimesShown)) {
+  for (const std::size_t k : spread_indices(outlines.size(), kOutlinesShown)) {
     Series measured{.style = SeriesStyle::dots, .colour = palette_colour(colour), .in_legend = false};
     for (const datasets::OutlinePoint& point : outlines[k].points) {
       measured.x.push_back(kMillimetres * point.r);

@@ -13,6 +13,7 @@
 #include "reports/material_table.hpp"
 #include "reports/number.hpp"
 #include "reports/slump_tables.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 using mpm::HistoryRow;
 using mpm::SlumpResult;
 
-constexpr double kMillimetres = 1e3;        // in a metre
 constexpr double kVolumeErrorLimit = 0.01;  // beyond these a run is not to be trusted without a word
 constexpr double kEnergyErrorLimit = 0.02;
 constexpr std::size_t kTimesShown = 7;  // as many as the palette has colours

@@ -6,11 +6,11 @@
 
 #include "reports/number.hpp"
 #include "reports/slump_json.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
 
-constexpr double kMillimetres = 1e3;  // in a metre
 constexpr double kPercent = 100.0;
 
 std::string percent(double ratio) {

@@ -11,6 +11,7 @@
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
 #include "reports/time_axis.hpp"
+#include "reports/units.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -22,8 +23,6 @@ using calibration::Line;
 using calibration::StartValue;
 using calibration::StartValues;
 using calibration::TimeLine;
-
-constexpr double kPerPascal = 1e-3;  // kPa
 
 /// ln(1+e) is straight against ln stress, e bends: a few points make it smooth.
 ConstructionLine polyline(std::string name, const Line& line, double from, double to) {
