@@ -25,6 +25,17 @@ function(isotach_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
+# isotach_compile_together(TARGET SOURCES...): with ISOTACH_UNITY these are compiled as one, which reads the headers once;
+# of files that do little but include them, that halves the time. Groups are named one by one, so that a new file stands
+# alone until it joins one, and only files of one group must not give a name of their own two meanings.
+function(isotach_compile_together target)
+  if(ISOTACH_UNITY)
+    list(GET ARGN 0 first)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${first})
+  endif()
+endfunction()
+
 # isotach_library(NAME SOURCES... LINKS...): the library isotach::NAME of the folder NAME.
 function(isotach_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
