@@ -7,6 +7,8 @@
 #include <system_error>
 
 #include "mpm/archive.hpp"
+#include "mpm/code_version.hpp"
+#include "mpm/setup_fields.hpp"
 
 namespace isotach::mpm {
 
@@ -24,50 +26,32 @@ std::uint64_t hash_of(std::string_view bytes) {
   return hash;
 }
 
+template <class T>
+void archive_copy(Archive& archive, T value) {
+  archive(value);
+}
+
+void archive_copy(Archive& archive, const std::optional<double>& value) {
+  archive_copy(archive, value.value_or(-1.0));  // none of them can be negative
+}
+
 }  // namespace
 
 std::uint64_t run_key(const model::Parameters<double>& parameters, const SlumpSetup& setup, bool history,
                       bool snapshots, std::size_t frames) {
   Archive archive;
-  SlumpSetup copy = setup;
   for (const model::ParameterInfo& parameter : model::kParameterTable) {
     double value = parameters.values()[parameter.id];
     archive(value);
   }
   auto lode = parameters.values().lode;
   archive(lode);
-  archive(copy.mould.diameter);
-  archive(copy.mould.fill_height);
-  archive(copy.mould.lift_speed);
-  archive(copy.mould.wall);
-  archive(copy.mould.lift_delay);
-  archive(copy.mould.lift_table);
-  for (std::optional<double>* value :
-       {&copy.mud.void_ratio, &copy.mud.undrained_strength, &copy.mud.strength_rate}) {
-    double number = value->value_or(-1.0);  // none of them can be negative
-    archive(number);
-  }
-  archive(copy.mud.specific_gravity);
-  archive(copy.mud.overconsolidation_ratio);
-  archive(copy.base.friction.adhesion);
-  archive(copy.base.friction.friction);
-  archive(copy.base.friction.slip_length);
-  bool elastic = copy.base.slab.has_value();
-  archive(elastic);
-  if (elastic) archive(*copy.base.slab);
-  archive(copy.numerics.cell_size);
-  archive(copy.numerics.points_per_cell);
-  archive(copy.numerics.water_bulk_modulus);
-  archive(copy.numerics.courant);
-  archive(copy.numerics.tolerance);
-  archive(copy.numerics.background_viscosity);
-  archive(copy.numerics.inertia_scaling);
-  archive(copy.numerics.threads);
-  archive(copy.times);
+  visit_fields(setup, [&](std::string_view, const auto& value) { archive_copy(archive, value); });
+  archive_copy(archive, setup.numerics.threads);
   archive(history);
   archive(snapshots);
   archive(frames);
-  return hash_of(archive.bytes() + ISOTACH_VERSION);
+  return hash_of(archive.bytes() + code_version());
 }
 
 bool write_checkpoint(const std::filesystem::path& file, std::uint64_t key, std::string_view state) {

@@ -1,6 +1,8 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "mpm/slump.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -98,6 +100,7 @@ class Keeper {
 
 tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double>& parameters,
                                                   const SlumpSetup& setup, const RunOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
   SlumpRun run(parameters, setup);
   SlumpResult result;
   result.initial = run.initial();
@@ -125,6 +128,15 @@ tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double
         keeper.write();
         return tl::unexpected(
             SlumpFailure{SlumpFailure::Kind::interrupted, run.time(), 0.0, 0.0, "the run was interrupted"});
+      }
+      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >
+          options.time_limit) {
+        keeper.write();
+        return tl::unexpected(SlumpFailure{
+            SlumpFailure::Kind::timed_out, run.time(), 0.0, 0.0,
+            fmt::format(
+                "the run took longer than its limit of {:g} s of wall time; it had reached t = {:.3f} s",
+                options.time_limit, run.time())});
       }
       if (options.progress) {
         const double left = (targets.back() - run.time()) / run.last_step();

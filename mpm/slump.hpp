@@ -6,6 +6,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -91,7 +92,7 @@ struct SlumpResult {
 };
 
 struct SlumpFailure {
-  enum class Kind { bad_setup, left_grid, left_slab, not_finite, interrupted, no_outline };
+  enum class Kind { bad_setup, left_grid, left_slab, not_finite, interrupted, timed_out, no_outline };
   Kind kind;
   double time;  ///< s
   double r;     ///< m, where it has a place
@@ -114,6 +115,8 @@ struct RunOptions {
   double checkpoint_interval = 30.0;  ///< s of wall time between two
   /// The run ends with Kind::interrupted soon after this becomes true.
   const std::atomic<bool>* stop = nullptr;
+  /// s of wall time from the call, after which the run ends with Kind::timed_out.
+  double time_limit = std::numeric_limits<double>::infinity();
 };
 
 /// Initial state of the mud: e0 given, or solved from C_u by

@@ -1,0 +1,69 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// All that decides the outcome of a slump run, field by field and by name: one list for every key made of it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mpm/slump_setup.hpp"
+
+namespace isotach::mpm {
+
+/// Calls visit(name, value) for each field of the setup but the number of threads, in an order that stays.
+/// Names carry SI units. Values are double, int, bool, std::optional<double>, std::vector<double> and
+/// std::vector<RimPlace>. The bindings name every member, so that a new one does not compile until it is
+/// listed here.
+template <class Visitor>
+void visit_fields(const SlumpSetup& setup, Visitor&& visit) {
+  const auto& [mould, mud, base, numerics, times] = setup;
+  {
+    const auto& [diameter, fill_height, lift_speed, wall, lift_delay, lift_table] = mould;
+    const auto& [adhesion, friction] = wall;
+    visit("mould_diameter_m", diameter);
+    visit("mould_fill_height_m", fill_height);
+    visit("mould_lift_speed_m_per_s", lift_speed);
+    visit("mould_wall_adhesion_Pa", adhesion);
+    visit("mould_wall_friction", friction);
+    visit("mould_lift_delay_s", lift_delay);
+    visit("mould_lift_table_s_m", lift_table);
+  }
+  {
+    const auto& [void_ratio, undrained_strength, strength_rate, specific_gravity, ocr] = mud;
+    visit("mud_void_ratio", void_ratio);
+    visit("mud_undrained_strength_Pa", undrained_strength);
+    visit("mud_strength_rate_per_s", strength_rate);
+    visit("mud_specific_gravity", specific_gravity);
+    visit("mud_ocr", ocr);
+  }
+  {
+    const auto& [yielding, slab] = base;
+    const auto& [adhesion, friction, slip_length] = yielding;
+    visit("base_adhesion_Pa", adhesion);
+    visit("base_friction", friction);
+    visit("base_slip_length_m", slip_length);
+    const bool elastic = slab.has_value();
+    visit("base_elastic", elastic);
+    if (elastic) {
+      const auto& [thickness, length, youngs_modulus, poissons_ratio] = *slab;
+      visit("base_thickness_m", thickness);
+      visit("base_length_m", length);
+      visit("base_youngs_modulus_Pa", youngs_modulus);
+      visit("base_poissons_ratio", poissons_ratio);
+    }
+  }
+  {
+    const auto& [cell_size, points_per_cell, water_bulk_modulus, courant, tolerance, viscosity, threads,
+                 inertia_scaling] = numerics;
+    static_cast<void>(threads);
+    visit("cell_size_m", cell_size);
+    visit("points_per_cell", points_per_cell);
+    visit("water_bulk_modulus_Pa", water_bulk_modulus);
+    visit("courant", courant);
+    visit("tolerance", tolerance);
+    visit("background_viscosity_Pa_s", viscosity);
+    visit("inertia_scaling", inertia_scaling);
+  }
+  visit("times_s", times);
+}
+
+}  // namespace isotach::mpm
