@@ -71,6 +71,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   SlumpFitOptions slump_options;
   slump_options.threads = options.threads;
   slump_options.control.stop = options.stop;
+  slump_options.simulate = options.simulate;
 
   report(0.0, "oedometer fit");
   auto first = fit_oedometer(study, study.material, study.fit.oedometer, oedometer_options);
@@ -79,7 +80,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   calibration.oedometer = std::move(*first);
 
   std::optional<SlumpSearch> found;
-  int simulations = 0;
+  mpm::RunCounts runs;
   for (int round = 1; round <= options.max_rounds && !calibration.settled; ++round) {
     const bool is_first = round == 1;
     const std::vector<ParameterId>& moved = is_first ? slump_list : later_slump_list;
@@ -98,12 +99,12 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
     if (!search) return tl::unexpected(search.error());
     done += search->search.evaluations;
     found = std::move(*search);
-    simulations += found->simulations;
+    runs += found->runs;
     if (is_first) {
       report(0.0, "uncertainty of the slump fit");
       auto alone = assess_slump(study, *found, moved, slump_options);
       if (!alone) return tl::unexpected(alone.error());
-      simulations += alone->simulations - found->simulations;
+      runs = alone->runs;  // the search's among them
       calibration.slump_alone = std::move(*alone);
       done += 2.0 * static_cast<double>(moved.size()) + 3.0;
     }
@@ -128,7 +129,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   report(0.0, "uncertainty and comparison of all tests");
   slump_options.control.callback = nullptr;
   found->parameters = *calibration.oedometer.result.parameters;
-  found->simulations = simulations;
+  found->runs = runs;
   const std::vector<ParameterId>& last_list = later_slump_list.empty() ? slump_list : later_slump_list;
   auto slump = assess_slump(study, *found, last_list, slump_options);
   if (!slump) return tl::unexpected(slump.error());

@@ -28,6 +28,7 @@ struct CalibrateOptions {
   int threads = 1;
   int max_rounds = 4;
   const std::atomic<bool>* stop = nullptr;
+  experiments::Simulate simulate;  ///< of slump tests; where empty, mpm::run_slump until `stop`
   /// Fraction of the expected work done, and what is being done.
   std::function<void(double, const std::string&)> progress;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "calibration/parallel.hpp"
 #include "calibration/uncertainty.hpp"
@@ -16,10 +17,54 @@ namespace {
 
 using SlumpExperiments = std::vector<std::shared_ptr<const experiments::SlumpExperiment>>;
 
-SlumpExperiments make_experiments(const datasets::Study& study, const std::atomic<bool>* stop) {
+experiments::Simulate plain_simulation(const std::atomic<bool>* stop) {
+  return [stop](const std::string&, const model::Parameters<double>& parameters,
+                const mpm::SlumpSetup& setup) -> tl::expected<mpm::SlumpResult, mpm::RunFailure> {
+    mpm::RunOptions options;
+    options.stop = stop;
+    options.history = false;
+    auto result = mpm::run_slump(parameters, setup, options);
+    if (result) return std::move(*result);
+    return tl::unexpected(mpm::RunFailure{mpm::status_of(result.error()), std::move(result.error().message)});
+  };
+}
+
+/// Counts how simulations end.
+class RunTally {
+ public:
+  void add(mpm::RunStatus status) {
+    const std::lock_guard lock(mutex_);
+    ++counts_[status];
+  }
+  [[nodiscard]] mpm::RunCounts counts() const {
+    const std::lock_guard lock(mutex_);
+    return counts_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mpm::RunCounts counts_;
+};
+
+/// Simulations without a result.
+long failures(const mpm::RunCounts& runs) {
+  return runs.total() - runs[mpm::RunStatus::ok] - runs[mpm::RunStatus::not_settled];
+}
+
+/// The study's tests, whose simulations `tally` counts.
+SlumpExperiments make_experiments(const datasets::Study& study, const SlumpFitOptions& options,
+                                  const std::shared_ptr<RunTally>& tally) {
+  const experiments::Simulate simulate =
+      options.simulate ? options.simulate : plain_simulation(options.control.stop);
+  const auto counted = [simulate, tally](const std::string& test, const model::Parameters<double>& parameters,
+                                         const mpm::SlumpSetup& setup) {
+    auto result = simulate(test, parameters, setup);
+    tally->add(result ? mpm::status_of(*result) : result.error().status);
+    return result;
+  };
   SlumpExperiments all;
   for (const auto& test : study.slump_tests) {
-    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, stop));
+    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, counted));
   }
   return all;
 }
@@ -87,7 +132,8 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
                                                    const model::Parameters<double>& start,
                                                    const std::vector<model::ParameterId>& wanted,
                                                    const SlumpFitOptions& options) {
-  const SlumpExperiments all = make_experiments(study, options.control.stop);
+  const auto tally = std::make_shared<RunTally>();
+  const SlumpExperiments all = make_experiments(study, options, tally);
   const Problem problem = make_problem(all, study, start, wanted, options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
 
@@ -102,8 +148,7 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
   if (search.trace.empty()) {
     return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
   }
-  SlumpSearch found{*parametrisation.at(search.coordinates), std::move(search), 0, {}};
-  found.simulations = found.search.evaluations * static_cast<int>(problem.fitted().size());
+  SlumpSearch found{*parametrisation.at(search.coordinates), std::move(search), tally->counts(), {}};
   if (!found.search.converged) found.warnings.push_back("NLopt stopped early: " + found.search.termination);
   if (found.search.failed_evaluations > 0) {
     found.warnings.push_back(fmt::format("{} of {} evaluations failed and were refused; the last: {}",
@@ -116,7 +161,8 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
 tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, const SlumpSearch& found,
                                                 const std::vector<model::ParameterId>& wanted,
                                                 const SlumpFitOptions& options) {
-  const SlumpExperiments all = make_experiments(study, options.control.stop);
+  const auto tally = std::make_shared<RunTally>();
+  const SlumpExperiments all = make_experiments(study, options, tally);
   const Problem problem = make_problem(all, study, found.parameters, wanted, options.threads);
   const std::vector<double> answer = problem.parametrisation().start();
   SlumpFit fit;
@@ -131,6 +177,11 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   if (!uncertainty) {
     return tl::unexpected(FitFailure{uncertainty.error().message, uncertainty.error().interrupted});
   }
+  if (const long failed = failures(tally->counts()); failed > 0) {
+    result.warnings.push_back(fmt::format(
+        "{} simulation{} beside the answer failed: standard errors rest on one-sided differences there",
+        failed, failed == 1 ? "" : "s"));
+  }
   result.uncertainty = std::move(*uncertainty);
   result.correlation = correlation_of(result.uncertainty.covariance);
   result.estimates = estimate_parameters(problem, answer, result.uncertainty);
@@ -139,8 +190,8 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   if (!comparisons) return tl::unexpected(comparisons.error());
   fit.comparisons = std::move(*comparisons);
   fit.rms_mould_gone = rms_mould_gone(fit.comparisons);
-  fit.simulations = found.simulations + static_cast<int>(problem.fitted().size() * (1 + 2 * answer.size())) +
-                    static_cast<int>(all.size());
+  fit.runs = found.runs;
+  fit.runs += tally->counts();
   result.adequate = true;
   for (const SlumpComparison& comparison : fit.comparisons) {
     const experiments::Values scaled = comparison.experiment->scaled_residuals(comparison.distances);

@@ -21,7 +21,7 @@ struct SlumpFit {
   FitResult result;
   std::vector<SlumpComparison> comparisons;  ///< all tests of the study
   double rms_mould_gone = 0.0;               ///< m, over all tests, held-out ones included
-  int simulations = 0;
+  mpm::RunCounts runs;                       ///< simulations by how they ended, those of the search included
 };
 
 struct SlumpFitOptions {
@@ -30,13 +30,14 @@ struct SlumpFitOptions {
   double first_step = 0.2;  ///< of logarithmic coordinates
   double first_step_C_1 = 0.08;
   OptimiserControl control;
+  experiments::Simulate simulate;  ///< where empty, mpm::run_slump until control.stop
 };
 
 /// What a search found, before its uncertainty and the comparison with all tests are worked out.
 struct SlumpSearch {
   model::Parameters<double> parameters;
   OptimiserResult search;
-  int simulations = 0;
+  mpm::RunCounts runs;  ///< simulations by how they ended
   std::vector<std::string> warnings;
 };
 

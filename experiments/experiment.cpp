@@ -51,9 +51,10 @@ tl::expected<Linearisation, PredictionFailure> Experiment::linearise(
     const auto id = static_cast<model::ParameterId>(k);
     const double step =
         material ? difference_step(id, parameters[id]) : kRelativeStep * local[k - model::kParameterCount];
-    // one-sided where the other side is not admissible
+    // one-sided where the other side is not admissible or fails
     Values ends[2] = {result.values, result.values};
     double width = 0.0;
+    std::optional<PredictionFailure> failure;
     for (const int side : {0, 1}) {
       model::ParameterValues<double> moved = parameters.values();
       std::vector<double> moved_local(local.begin(), local.end());
@@ -61,11 +62,18 @@ tl::expected<Linearisation, PredictionFailure> Experiment::linearise(
       const auto admissible = model::Parameters<double>::create(moved);
       if (!admissible) continue;
       auto values = predict(*admissible, moved_local);
-      if (!values) return tl::unexpected(values.error());
+      if (!values) {
+        failure = values.error();
+        if (failure->interrupted) return tl::unexpected(*failure);
+        continue;
+      }
       ends[side] = std::move(*values);
       width += step;
     }
-    if (!(width > 0.0)) continue;
+    if (!(width > 0.0)) {
+      if (failure) return tl::unexpected(*failure);
+      continue;
+    }
     for (Eigen::Index row = 0; row < rows; ++row) {
       const auto i = static_cast<std::size_t>(row);
       result.jacobian.row(row) += (ends[1][i] - ends[0][i]) / width * directions.row(input);

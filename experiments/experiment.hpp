@@ -75,8 +75,8 @@ class Experiment {
       const model::Parameters<double>& parameters, std::span<const double> local) const = 0;
 
   /// Prediction with derivatives; `directions` has a row for each input and a column for each derivative
-  /// asked for. By default central differences by those inputs that move; exact where the experiment
-  /// overrides it.
+  /// asked for. By default central differences by those inputs that move, one-sided where the other side
+  /// cannot be predicted; exact where the experiment overrides it.
   [[nodiscard]] virtual tl::expected<Linearisation, PredictionFailure> linearise(
       const model::Parameters<double>& parameters, std::span<const double> local,
       const Eigen::MatrixXd& directions) const;

@@ -7,8 +7,8 @@
 
 namespace isotach::experiments {
 
-SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, const std::atomic<bool>* stop)
-    : test_(std::move(test)), stop_(stop) {
+SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, Simulate simulate)
+    : test_(std::move(test)), simulate_(std::move(simulate)) {
   for (std::size_t k = 0; k < test_.outlines.size(); ++k) {
     const datasets::Outline& outline = test_.outlines[k];
     double top = 0.0;
@@ -29,13 +29,10 @@ double SlumpExperiment::cost() const {
 
 tl::expected<mpm::SlumpResult, PredictionFailure> SlumpExperiment::simulate(
     const model::Parameters<double>& parameters) const {
-  mpm::RunOptions options;
-  options.stop = stop_;
-  options.history = false;
-  auto result = mpm::run_slump(parameters, test_.setup, options);
+  auto result = simulate_(test_.name, parameters, test_.setup);
   if (!result) {
     return tl::unexpected(PredictionFailure{test_.name + ": " + result.error().message,
-                                            result.error().kind == mpm::SlumpFailure::Kind::interrupted});
+                                            result.error().status == mpm::RunStatus::interrupted});
   }
   return std::move(*result);
 }

@@ -2,20 +2,26 @@
 // A slump test: measured outlines against those of an MPM simulation.
 #pragma once
 
-#include <atomic>
+#include <functional>
+#include <string>
 
 #include "datasets/study.hpp"
 #include "experiments/experiment.hpp"
+#include "mpm/run_status.hpp"
 #include "mpm/slump.hpp"
 
 namespace isotach::experiments {
+
+/// How the simulation of a test of that name is had: run, or known already. Called from several threads.
+using Simulate = std::function<tl::expected<mpm::SlumpResult, mpm::RunFailure>(
+    const std::string& test, const model::Parameters<double>& parameters, const mpm::SlumpSetup& setup)>;
 
 /// The value of each measured point is its signed distance to the simulated outline of the same time (m);
 /// what is "measured" is therefore zero.
 class SlumpExperiment final : public Experiment {
  public:
-  /// `stop` may be null; once true, simulations end early.
-  SlumpExperiment(datasets::SlumpTest test, const std::atomic<bool>* stop);
+  /// `simulate` may be empty where nothing is predicted.
+  SlumpExperiment(datasets::SlumpTest test, Simulate simulate);
 
   [[nodiscard]] const std::string& name() const override { return test_.name; }
   [[nodiscard]] bool held_out() const override { return test_.hold_out; }
@@ -40,7 +46,7 @@ class SlumpExperiment final : public Experiment {
 
  private:
   datasets::SlumpTest test_;
-  const std::atomic<bool>* stop_;
+  Simulate simulate_;
   Values zeros_;
   Values noise_;
   std::vector<bool> mould_gone_;

@@ -29,7 +29,13 @@ ordered_json slump_fit_json(const datasets::Study& study, const calibration::Slu
     json["tests"].push_back(std::move(test));
   }
   json["rms_mould_gone_mm"] = json_number(1e3 * fit.rms_mould_gone);
-  json["simulations"] = fit.simulations;
+  json["simulations"] = fit.runs.total();
+  json["simulations_by_status"] = ordered_json::object();
+  for (std::size_t i = 0; i < mpm::kRunStatusCount; ++i) {
+    const auto status = static_cast<mpm::RunStatus>(i);
+    if (status == mpm::RunStatus::interrupted) continue;  // then there is no result
+    json["simulations_by_status"][std::string(name_of(status))] = fit.runs[status];
+  }
   json["evaluations_failed"] = fit.result.main.failed_evaluations;
   json["assumptions"] = study.assumptions;
   return json;

@@ -35,6 +35,17 @@ std::vector<NamedRun> runs_of(const SlumpFit& fit) {
   return runs;
 }
 
+/// "38 ok, 2 timed out".
+std::string status_list(const mpm::RunCounts& runs) {
+  std::string list;
+  for (std::size_t i = 0; i < mpm::kRunStatusCount; ++i) {
+    const auto status = static_cast<mpm::RunStatus>(i);
+    if (runs[status] == 0) continue;
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", runs[status], name_of(status));
+  }
+  return list;
+}
+
 Figure outline_figure(const calibration::TestSummary& summary, const SlumpComparison& comparison) {
   Figure figure = meridian_figure();
   figure.title = title_of(summary);
@@ -135,8 +146,8 @@ void add_slump_fit_facts(Page& page, const SlumpFit& fit) {
       fmt::format("{} mm root mean square from when the rim had left the mud, all {} tests, held-out ones "
                   "included",
                   millimetres(fit.rms_mould_gone), fit.comparisons.size()));
-  page.fact("Simulations", fmt::format("{} by the material point method, cells of {} mm", fit.simulations,
-                                       millimetres(cell_size)));
+  page.fact("Simulations", fmt::format("{} by the material point method, cells of {} mm: {}",
+                                       fit.runs.total(), millimetres(cell_size), status_list(fit.runs)));
 }
 
 void add_slump_fit_section(Page& page, const datasets::Study& study, const SlumpFit& fit) {

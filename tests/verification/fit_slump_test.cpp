@@ -62,7 +62,7 @@ TEST_P(FitSlump, RecoversTheIvOfTheTruth) {
   ASSERT_TRUE(found.has_value()) << found.error().message;
   EXPECT_TRUE(found->search.converged) << found->search.termination;
   EXPECT_NEAR(found->parameters.I_v() / kTrueIv, 1.0, 0.03);
-  EXPECT_EQ(found->simulations, 2 * found->search.evaluations);
+  EXPECT_EQ(found->runs.total(), 2 * found->search.evaluations);
   for (const model::ParameterId id : {e100, lambda, kappa, D_r, phi_c, C_1}) {
     EXPECT_EQ(found->parameters[id], tests::seed_mud()[id]);
   }
