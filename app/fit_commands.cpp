@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "app/command.hpp"
+#include "app/fit_journal.hpp"
 #include "app/interrupt.hpp"
 #include "calibration/calibrate.hpp"
 #include "datasets/input_error.hpp"
@@ -50,18 +52,32 @@ void require_more_than_gauged(const datasets::Study& study) {
 
 /// Everything a fit writes.
 template <class Fit, class Report>
-int publish(reports::OutputDirectory& output, const CommonOptions& options, const Run& run,
+int publish(reports::OutputDirectory& output, const CommonOptions& options, const reports::RunInfo& info,
             const datasets::Study& study, const Fit& fit, Report&& report) {
-  const reports::RunInfo info = run.info();
   output.write_text("report.html", report(info, study, fit).html());
   output.write_text("parameters.toml", reports::parameters_toml(info, fit));
   reports::write_curves(output, fit);
-  output.write_json("result.json", reports::result_json(run.info(), study, fit));
+  output.write_json("result.json", reports::result_json(info, study, fit));
   return end_done(output, options.quiet);
 }
 
-int failed(reports::OutputDirectory& output, const Run& run, const calibration::FitFailure& failure) {
-  return end_failed(output, reports::failure_json(run.info(), failure), failure.message, failure.interrupted);
+int failed(reports::OutputDirectory& output, const reports::RunInfo& info,
+           const calibration::FitFailure& failure) {
+  return end_failed(output, reports::failure_json(info, failure), failure.message, failure.interrupted);
+}
+
+/// The same of a fit that kept a journal.
+int failed(reports::OutputDirectory& output, const reports::RunInfo& info,
+           const calibration::FitFailure& failure, const FitJournal& journal, bool quiet) {
+  if (failure.interrupted) journal.tell_rest(quiet);
+  return failed(output, info, failure);
+}
+
+/// The head of a result, with what the journal has to say.
+reports::RunInfo info_of(const Run& run, const FitJournal& journal) {
+  reports::RunInfo info = run.info();
+  info.warnings = journal.warnings();
+  return info;
 }
 
 int fit_oedometer(const CommonOptions& options) {
@@ -81,19 +97,21 @@ int fit_oedometer(const CommonOptions& options) {
     progress.update(kSearch, fmt::format("evaluation {}, cost {:.5g}", evaluations, cost));
   };
   const auto fit = calibration::fit_oedometer(study, study.material, study.fit.oedometer, fit_options);
-  if (!fit) return failed(output, run, fit.error());
+  if (!fit) return failed(output, run.info(), fit.error());
   progress.finish();
-  return publish(output, options, run, study, *fit, reports::oedometer_report);
+  return publish(output, options, run.info(), study, *fit, reports::oedometer_report);
 }
 
-int fit_slump(const CommonOptions& options) {
+int fit_slump(const CommonOptions& options, const JournalLine& journal_line) {
   const Run run("fit-slump", options.input);
   const datasets::Study study = datasets::read_study(options.input, options.read_options());
   require_fitted(study, study.slump_tests, "[[slump]]");
   require_parameters(study, study.fit.slump, "[fit] slump");
   reports::OutputDirectory output(options.out);
+  FitJournal journal(journal_line, options, study);
   reports::Progress progress("fit-slump", options.quiet);
   calibration::SlumpFitOptions fit_options;
+  fit_options.simulate = journal.simulate();
   fit_options.threads = options.threads;
   fit_options.control.stop = &interrupted();
   fit_options.control.callback = [&](int evaluations, double cost) {
@@ -107,12 +125,13 @@ int fit_slump(const CommonOptions& options) {
     }
   };
   const auto fit = calibration::fit_slump(study, study.material, fit_options);
-  if (!fit) return failed(output, run, fit.error());
+  const reports::RunInfo info = info_of(run, journal);
+  if (!fit) return failed(output, info, fit.error(), journal, options.quiet);
   progress.finish();
-  return publish(output, options, run, study, *fit, reports::slump_fit_report);
+  return publish(output, options, info, study, *fit, reports::slump_fit_report);
 }
 
-int calibrate(const CommonOptions& options) {
+int calibrate(const CommonOptions& options, const JournalLine& journal_line) {
   const Run run("calibrate", options.input);
   const datasets::Study study = datasets::read_study(options.input, options.read_options());
   require_fitted(study, study.oedometer_tests, "[[oedometer]]");
@@ -121,37 +140,44 @@ int calibrate(const CommonOptions& options) {
   require_more_than_gauged(study);
   require_parameters(study, study.fit.slump, "[fit] slump");
   reports::OutputDirectory output(options.out);
+  FitJournal journal(journal_line, options, study);
   reports::Progress progress("calibrate", options.quiet);
   calibration::CalibrateOptions calibrate_options;
+  calibrate_options.simulate = journal.simulate();
   calibrate_options.threads = options.threads;
   calibrate_options.stop = &interrupted();
   calibrate_options.progress = [&](double fraction, const std::string& what) {
     progress.update(fraction, what);
   };
   const auto result = calibration::calibrate(study, calibrate_options);
-  if (!result) return failed(output, run, result.error());
+  const reports::RunInfo info = info_of(run, journal);
+  if (!result) return failed(output, info, result.error(), journal, options.quiet);
   progress.finish();
-  return publish(output, options, run, study, *result, reports::calibration_report);
+  return publish(output, options, info, study, *result, reports::calibration_report);
 }
 
-/// A command whose only option of its own is the study.
-Runner on_study(CLI::App& line, CommonOptions& common, int (*command)(const CommonOptions&)) {
+/// A command on a study that keeps a journal of its simulations.
+Runner with_journal(CLI::App& line, CommonOptions& common,
+                    int (*command)(const CommonOptions&, const JournalLine&)) {
   add_input(line, common, "STUDY");
-  return [&common, command] { return command(common); };
+  const auto journal = std::make_shared<JournalLine>();
+  add_journal_options(line, *journal);
+  return [&common, journal, command] { return command(common, *journal); };
 }
 
 }  // namespace
 
 Runner fit_oedometer_command(CLI::App& line, CommonOptions& common) {
-  return on_study(line, common, fit_oedometer);
+  add_input(line, common, "STUDY");
+  return [&common] { return fit_oedometer(common); };
 }
 
 Runner fit_slump_command(CLI::App& line, CommonOptions& common) {
-  return on_study(line, common, fit_slump);
+  return with_journal(line, common, fit_slump);
 }
 
 Runner calibrate_command(CLI::App& line, CommonOptions& common) {
-  return on_study(line, common, calibrate);
+  return with_journal(line, common, calibrate);
 }
 
 }  // namespace isotach::app
