@@ -11,11 +11,11 @@ namespace {
 
 /// Each command with what its help must name beside the options that all have.
 const std::map<std::string, std::vector<std::string>> kCommands{
-    {"calibrate", {" STUDY", "--max-file-mb"}},
+    {"calibrate", {" STUDY", "--max-file-mb", "--journal", "--no-journal", "--time-limit"}},
     {"element",
      {" TEST", "--max-file-mb", "--integrator", "fellin-ostermann", "cvode", "rosenbrock", "--tolerance"}},
     {"fit-oedometer", {" STUDY", "--max-file-mb"}},
-    {"fit-slump", {" STUDY", "--max-file-mb"}},
+    {"fit-slump", {" STUDY", "--max-file-mb", "--journal", "--no-journal", "--time-limit"}},
     {"profile",
      {" IMAGE", "--scale-mm-per-pixel", "--reference-length-mm", "--mould-picture", "--rectangle",
       "--circle-point", "--camera-distance-mm", "--base-row", "--axis-column", "--region", "--ignore",

@@ -279,6 +279,7 @@ TEST_P(JournalModes, ProcessesThatWriteAtOnceLoseNothing) {
 
 TEST_P(JournalModes, AKilledWriterLosesNothingItHadPut) {
   for (const int rows_before_kill : {1, 2, 7, 20}) {
+    std::filesystem::remove(file());
     int ends[2];
     ASSERT_EQ(pipe(ends), 0);
     const pid_t child = fork();
