@@ -22,7 +22,8 @@ std::string_view name_of(RunStatus status) {
 }
 
 double kinetic_share(const SlumpResult& result) {
-  return result.history.back().kinetic / result.history.front().potential;
+  const HistoryRow& end = result.history.back();
+  return end.kinetic / end.inertia_scaling / result.history.front().potential;
 }
 
 RunStatus status_of(const SlumpResult& result) {
