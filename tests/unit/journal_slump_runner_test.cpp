@@ -78,22 +78,22 @@ TEST_F(SlumpRunnerTest, ATimeOutIsKeptAndTriedAgainOnlyWithMoreTime) {
   EXPECT_NE(journal_.get(key_of(setup))->status, RunStatus::timed_out);
 }
 
-// A metre of slurry, hardly more than water, runs off the grid, which reaches six radii from the axis.
-TEST_F(SlumpRunnerTest, MudThatLeavesTheGridIsKeptAsOutsideTheDomain) {
+// The wet mud spreads to 63 mm.
+TEST_F(SlumpRunnerTest, MudThatReachesTheEdgeOfTheSlabIsKeptAsOutsideTheDomain) {
   mpm::SlumpSetup setup = small_setup();
-  setup.mould.fill_height = 1.0;
-  setup.mud.void_ratio = 29.0;
-  setup.times = {5.0};
+  setup.base.slab = mpm::ElasticSlab{};
+  setup.base.slab->length = 0.055;
+  setup.times = {1.0};
   const auto result = SlumpRunner(&journal_).run("a", tests::seed_mud(), setup);
   ASSERT_FALSE(result.has_value());
   const auto row = journal_.get(key_of(setup));
   ASSERT_TRUE(row.has_value());
   EXPECT_EQ(row->status, RunStatus::outside_domain);
   EXPECT_EQ(row->message, result.error().message);
-  EXPECT_NE(row->message.find("leaves the grid"), std::string::npos) << row->message;
+  EXPECT_NE(row->message.find("beyond what it rests on"), std::string::npos) << row->message;
 }
 
-// A tenth of a second after the mould has begun to rise, wet mud falls; after ten seconds it creeps.
+// A tenth of a second after the mould has let it go, wet mud falls; after ten seconds it creeps.
 TEST_F(SlumpRunnerTest, MudThatStillFallsIsNotSettledAndAResultAllTheSame) {
   mpm::SlumpSetup setup = small_setup();
   SlumpRunner runner(&journal_);
