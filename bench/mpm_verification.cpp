@@ -11,6 +11,7 @@
 #include "bench/mpm_problems/closed_box.hpp"
 #include "bench/mpm_problems/elastic_bar.hpp"
 #include "bench/mpm_problems/manufactured_cylinder.hpp"
+#include "bench/mpm_problems/mud_a_outlines.hpp"
 #include "bench/mpm_problems/section.hpp"
 #include "bench/mpm_problems/self_weight_column.hpp"
 #include "bench/mpm_problems/undrained_column.hpp"
@@ -21,6 +22,9 @@ namespace {
 
 using isotach::bench::Section;
 
+Section mud_a() {
+  return isotach::bench::mud_a_section(ISOTACH_SOURCE_DIR "/datasets/mud-a/study.toml");
+}
 
 /// The problems in the order of the report.
 const std::vector<std::function<Section()>>& problems() {
@@ -32,7 +36,8 @@ const std::vector<std::function<Section()>>& problems() {
                                                          isotach::bench::locking_section,
                                                          isotach::bench::slump_section,
                                                          isotach::bench::spread_section,
-                                                         isotach::bench::vhp_slump_section};
+                                                         isotach::bench::vhp_slump_section,
+                                                         mud_a};
   return all;
 }
 
