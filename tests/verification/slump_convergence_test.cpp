@@ -30,19 +30,19 @@ TEST(SlumpConvergence, CellsOfEightMillimetresAreWithinThreePercentOfFineOnesAnd
 }
 
 TEST(SlumpConvergence, HalvedStepsMoveTheSlumpAfterThirtySecondsByLessThanATenthOfAMillimetre) {
-  mpm::SlumpSetup setup = seed_test_1(4 * kMillimetre, {5.0, 30.0});
+  mpm::SlumpSetup setup = seed_test_1(4 * kMillimetre, {0.5, 1.0, 5.0, 15.0, 30.0});
   const mpm::SlumpResult whole = run_seed_mud(setup);
   setup.numerics.courant *= 0.5;
   const mpm::SlumpResult half = run_seed_mud(setup);
   ASSERT_GT(static_cast<double>(half.steps), 1.8 * static_cast<double>(whole.steps));
-  EXPECT_NEAR(half.outlines[1].height(), whole.outlines[1].height(), 0.1 * kMillimetre);
-  EXPECT_NEAR(half.outlines[1].toe(), whole.outlines[1].toe(), 0.1 * kMillimetre);
+  EXPECT_NEAR(half.outlines.back().height(), whole.outlines.back().height(), 0.1 * kMillimetre);
+  EXPECT_NEAR(half.outlines.back().toe(), whole.outlines.back().toe(), 0.1 * kMillimetre);
   // creep by itself, without the fast part before it: height lost and ground gained from 5 s on
   const auto fall = [](const mpm::SlumpResult& run) {
-    return run.outlines[0].height() - run.outlines[1].height();
+    return run.outlines[2].height() - run.outlines[4].height();
   };
   const auto spread = [](const mpm::SlumpResult& run) {
-    return run.outlines[1].toe() - run.outlines[0].toe();
+    return run.outlines[4].toe() - run.outlines[2].toe();
   };
   EXPECT_GT(fall(whole), 0.2 * kMillimetre);
   EXPECT_NEAR(fall(half), fall(whole), 0.03 * kMillimetre);
