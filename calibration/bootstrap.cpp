@@ -112,7 +112,9 @@ Bootstrap bootstrap(const Problem& problem, const NoiseFit& noise, const std::ve
     }
     result.failed = options.samples - static_cast<int>(values.size());
     if (values.size() < 2) continue;
-    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), static_cast<Eigen::Index>(values.size()));
+    // a copy: over memory of any alignment Eigen's sums would round differently from run to run
+    const Eigen::ArrayXd all =
+        Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()));
     result.mean[k] = all.mean();
     result.std_error[k] =
         std::sqrt((all - all.mean()).square().sum() / static_cast<double>(values.size() - 1));
