@@ -16,11 +16,11 @@ using model::Fabric;
 using model::kPlane;
 
 constexpr double kSubstepMargin = 1.2;
-constexpr double kRetryFactor = 1.5;       // at least so many more substeps where the estimate was too low
-constexpr int kMostPackSubsteps = 24;      // beyond, substeps for single points are cheaper
+constexpr double kRetryFactor = 1.5;      // at least so many more substeps where the estimate was too low
+constexpr int kMostPackSubsteps = 24;     // beyond, substeps for single points are cheaper
 constexpr long kMostPointSubsteps = 128;  // beyond, the point is on its way out of the domain
-constexpr double kFloorTolerance = 0.1;  // of the least pressure: stresses near it need no relative accuracy
-constexpr double kHopeless = 1e18;       // squared error of a point that left the law's domain
+constexpr double kFloorTolerance = 0.1;   // of the least pressure: stresses near it need no relative accuracy
+constexpr double kHopeless = 1e18;        // squared error of a point that left the law's domain
 
 /// A pack of points and their motion over the step.
 template <Fabric K>
