@@ -392,6 +392,7 @@ void Engine::update(double dt) {
     Field& field = fields_[b];
     field.corners.pressures.clear();
     for (auto& pressures : field.pressures) pressures.clear();
+    body.particles.repeat_last(kOctet);
     std::vector<MaterialCount> counts(static_cast<std::size_t>(team_->size()));
     const double* mean_rate = body.averaged ? field.corners.mean.data() : nullptr;
     with_symmetry(settings_.symmetry, [&]<Symmetry S>() {

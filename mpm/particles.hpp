@@ -2,6 +2,7 @@
 // The material points of a body, as a structure of arrays.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -15,7 +16,7 @@ inline constexpr std::size_t kBlock = 64;
 
 /// Material points. Mass and volume are per radian of an axisymmetric body, per metre of a plane one; r and z
 /// are then x and y. Arrays have padded() entries, so that packs of points may run past the last one; the
-/// padding repeats a valid state inside the grid and has neither mass nor volume.
+/// padding has neither mass nor volume, and where steps work on it, it repeats the last point.
 ///
 /// Stress components are those of a plane Mandel vector: rr, zz, hoop, sqrt2 rz; tension positive (Pa).
 struct Particles {
@@ -49,6 +50,17 @@ struct Particles {
     }
     for (auto& a : stress) f(a);
     for (auto& a : omega) f(a);
+  }
+
+  /// Makes the padding that shares a pack of `lanes` with points repeat the last one. Left to itself it would
+  /// drift: it moves, but nothing looks after its state.
+  void repeat_last(std::size_t lanes) {
+    const std::size_t end = padded(count, lanes);
+    for_each_array([this, end](std::vector<double>& array) {
+      if (array.empty() || &array == &mass || &array == &solid_volume) return;
+      std::fill(array.begin() + static_cast<std::ptrdiff_t>(count),
+                array.begin() + static_cast<std::ptrdiff_t>(end), array[count - 1]);
+    });
   }
 
   template <class Archive>

@@ -20,6 +20,7 @@ constexpr double kRetryFactor = 1.5;      // at least so many more substeps wher
 constexpr int kMostPackSubsteps = 24;     // beyond, substeps for single points are cheaper
 constexpr long kMostPointSubsteps = 128;  // beyond, the point is on its way out of the domain
 constexpr double kFloorTolerance = 0.1;   // of the least pressure: stresses near it need no relative accuracy
+constexpr double kAtFloor = 1.0 + 1e-9;   // times the least pressure: a point that was put there
 constexpr double kHopeless = 1e18;        // squared error of a point that left the law's domain
 
 /// A pack of points and their motion over the step.
@@ -389,25 +390,30 @@ bool VhpMaterial::substep(Particles& particles, const MaterialChunk& chunk, std:
   tolerance.max_substeps = kMostPointSubsteps;
   double first_substep = 0.5 * chunk.dt;
   const double void_ratio_before = state.void_ratio;
-  const auto inside = [&](const State& y) {
-    return model::trace<double, kPlane>(y.stress) / -3.0 >= least_pressure && law_.in_domain(y);
+  const auto pressure = [](const State& y) { return model::trace<double, kPlane>(y.stress) / -3.0; };
+  const auto inside = [&](const State& y) { return pressure(y) >= least_pressure && law_.in_domain(y); };
+  const auto rate = [&](const State& y, model::StateRate<double, kPlane, K>& f) {
+    if (!inside(y)) return false;
+    f = law_.rate(y, strain_rate, norm);
+    model::add_corotation(f, y, spin);
+    return std::isfinite(f.stress.sum());
   };
-  const auto done = integrators::fellin_ostermann_substeps(
-      state, chunk.dt, tolerance, first_substep,
-      [&](const State& y, model::StateRate<double, kPlane, K>& f) {
-        if (!inside(y)) return false;
-        f = law_.rate(y, strain_rate, norm);
-        model::add_corotation(f, y, spin);
-        return std::isfinite(f.stress.sum());
-      },
-      inside, [](double) {});
+  // a point that lies at the least pressure and is pulled down further stays: no substep is short enough
+  const auto sinks = [&] {
+    model::StateRate<double, kPlane, K> f;
+    return pressure(state) <= kAtFloor * least_pressure && rate(state, f) &&
+           model::trace<double, kPlane>(f.stress) > 0.0;
+  };
+  const bool done = !sinks() && integrators::fellin_ostermann_substeps(
+                                    state, chunk.dt, tolerance, first_substep, rate, inside, [](double) {})
+                                    .has_value();
   if (!done) {
     const double volumetric_strain = model::trace<double, kPlane>(strain_rate) * chunk.dt;
     state = State{model::unit_tensor<double, kPlane>() * -least_pressure,
                   (1.0 + void_ratio_before) * std::exp(volumetric_strain) - 1.0};
   }
   store<K>(state, particles, i);
-  return done.has_value();
+  return done;
 }
 
 }  // namespace isotach::mpm

@@ -232,6 +232,26 @@ TEST_F(VhpMaterialTest, PointThatLosesContactIsSetToTheLeastPressureAndCounted) 
   }
 }
 
+// While it is pulled apart further it stays there; compressed again, p' grows by exp(tr D dt/kappa).
+TEST_F(VhpMaterialTest, PointAtTheLeastPressureStaysThereUntilItIsCompressed) {
+  constexpr double kStep = 1e-4;
+  std::vector<Point> points = random_points(1e-4, 5);
+  points[9].state.stress << -kLeastPressure, -kLeastPressure, -kLeastPressure, 0.0;
+  points[9].strain_rate << 1.0, 1.0, 1.0, 0.0;
+  MovingPoints particles = particles_of(points);
+  const Vector4 least(-kLeastPressure, -kLeastPressure, -kLeastPressure, 0.0);
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_EQ(update(mud(kSlumpTolerance), particles, kStep).floored, 1);
+    EXPECT_EQ(stress_of(particles, 9), least);
+  }
+  EXPECT_NEAR(particles.void_ratio[9], (1.0 + points[9].state.void_ratio) * std::exp(9e-4) - 1.0, 1e-12);
+  for (std::size_t k = 0; k < 3; ++k) particles.strain_rate[k][9] = -1.0;
+  EXPECT_EQ(update(mud(kSlumpTolerance), particles, kStep).floored, 0);
+  const double grown = particles.mean_effective_pressure(9) / kLeastPressure;
+  EXPECT_GT(grown, 1.0);
+  EXPECT_LT(grown, std::exp(3e-4 / law_.parameters().kappa()));
+}
+
 TEST_F(VhpMaterialTest, StressFollowsARigidRotation) {
   // spin W12 = w turns T by the angle -w t about axis 3; stiffness and viscosity aside (D = 0, OCR large)
   constexpr double kSpin = 0.3;
