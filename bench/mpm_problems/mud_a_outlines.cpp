@@ -38,7 +38,7 @@ datasets::Study with_numerics(datasets::Study study, double viscosity, double ce
 struct Fitted {
   double viscosity;  ///< Pa s
   model::Parameters<double> parameters;
-  int simulations;
+  long simulations;
 };
 
 Fitted fit(const datasets::Study& study, double viscosity) {
@@ -49,7 +49,7 @@ Fitted fit(const datasets::Study& study, double viscosity) {
   if (!oedometer) throw std::runtime_error(oedometer.error().message);
   const auto slump = calibration::search_slump(coarse, *oedometer->result.parameters, coarse.fit.slump, {});
   if (!slump) throw std::runtime_error(slump.error().message);
-  return {viscosity, slump->parameters, slump->simulations};
+  return {viscosity, slump->parameters, slump->runs.total()};
 }
 
 /// Signed distances of measured points from the simulated outlines of all tests (m), test by test.
