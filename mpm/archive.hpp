@@ -49,10 +49,16 @@ class Archive {
       values.resize(size);
     }
     if constexpr (std::is_trivially_copyable_v<T>) {
-      raw(values.data(), values.size() * sizeof(T));
+      (*this)(values.data(), values.size());
     } else {
       for (T& value : values) (*this)(value);
     }
+  }
+  /// Values whose number is known.
+  template <class T>
+  void operator()(T* values, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    raw(values, count * sizeof(T));
   }
 
  private:

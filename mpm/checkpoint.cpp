@@ -14,7 +14,7 @@ namespace isotach::mpm {
 
 namespace {
 
-constexpr std::string_view kMagic = "isotach slump checkpoint 3\n";
+constexpr std::string_view kMagic = "isotach slump checkpoint 4\n";
 
 /// FNV-1a.
 std::uint64_t hash_of(std::string_view bytes) {

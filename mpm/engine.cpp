@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -36,6 +38,7 @@ Engine::Engine(Grid grid, const EngineSettings& settings) : settings_(settings),
 Body& Engine::add(Body body) {
   Particles& q = body.particles;
   if (q.count == 0) throw std::invalid_argument("a body needs points");
+  if (q.count > std::numeric_limits<std::uint32_t>::max()) throw std::invalid_argument("too many points");
   const std::size_t padded = Particles::padded(q.count, kBlock);
   const bool rotates = !q.omega[0].empty();
   q.for_each_array([&](std::vector<double>& array) {
@@ -100,15 +103,12 @@ std::size_t count_stretches(const Grid& grid, const Particles& q) {
 /// Points of a cell side by side, cells in rows; points of a cell keep their order.
 void Engine::sort(Body& body) {
   Particles& q = body.particles;
-  std::vector<std::size_t> starts(grid_.stride() * (grid_.rows() + 2) + 1, 0);
-  std::vector<std::size_t> cells(q.count);
-  for (std::size_t i = 0; i < q.count; ++i) {
-    cells[i] = cell_of(grid_, q, i);
-    ++starts[cells[i] + 1];
-  }
+  using Index = std::uint32_t;  // half the room; add() sees that it suffices
+  std::vector<Index> starts(grid_.stride() * (grid_.rows() + 2) + 1, 0);
+  for (std::size_t i = 0; i < q.count; ++i) ++starts[cell_of(grid_, q, i) + 1];
   std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  std::vector<std::size_t> from(q.count);
-  for (std::size_t i = 0; i < q.count; ++i) from[starts[cells[i]]++] = i;
+  std::vector<Index> from(q.count);
+  for (std::size_t i = 0; i < q.count; ++i) from[starts[cell_of(grid_, q, i)]++] = static_cast<Index>(i);
   std::vector<double> sorted(q.count);
   q.for_each_array([&](std::vector<double>& array) {
     if (array.empty()) return;
@@ -489,7 +489,7 @@ Energies Engine::energies() const {
 
 double Engine::total_pressure(std::size_t body, std::size_t i) const {
   const Particles& q = bodies_[body].particles;
-  if (bodies_[body].averaged) return at_point(grid_, fields_[body].corners.mean, q.r[i], q.z[i]);
+  if (bodies_[body].averaged) return at_point(grid_, fields_[body].corners.mean.data(), q.r[i], q.z[i]);
   double pressure = 0.0;
   bodies_[body].material->total_pressure(q, i, 1, &pressure);
   return pressure;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mpm/octet.hpp"
+#include "mpm/zeroed_array.hpp"
 
 namespace isotach::mpm {
 
@@ -59,14 +60,21 @@ class RowSums {
   void touch(std::size_t row, std::size_t end) { ends_[row] = std::max(ends_[row], end); }
   void clear() {
     for (std::size_t row = 0; row < rows(); ++row) {
-      std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(row * stride_), ends_[row], T{});
+      std::fill_n(values_.data() + row * stride_, ends_[row], T{});
       ends_[row] = 0;
     }
   }
+  /// Rows as far as they are in use.
   template <class Archive>
   void visit(Archive& archive) {
-    archive(values_);
+    if (archive.loading()) clear();
     archive(ends_);
+    visit_used(archive, values_.data());
+  }
+  /// The entries of another array like this one's where this one's are in use.
+  template <class Archive, class U>
+  void visit_used(Archive& archive, U* values) {
+    for (std::size_t row = 0; row < rows(); ++row) archive(values + row * stride_, ends_[row]);
   }
   /// Adds another's sums of the rows first .. last - 1.
   void add(const RowSums& other, std::size_t first, std::size_t last) {
@@ -80,7 +88,7 @@ class RowSums {
 
  private:
   std::size_t stride_;
-  std::vector<T> values_;
+  ZeroedArray<T> values_;
   std::vector<std::size_t> ends_;
 };
 
@@ -180,7 +188,7 @@ class Grid {
   std::size_t rows_;
   Sides sides_;
   NodeSums sums_;
-  std::vector<NodeVelocity> velocities_;
+  ZeroedArray<NodeVelocity> velocities_;
 };
 
 }  // namespace isotach::mpm

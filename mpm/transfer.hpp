@@ -20,11 +20,11 @@ enum class Symmetry {
 /// Averages over the four cells around each corner, of one body's points, weighted by volume and bilinearly.
 struct CornerField {
   CornerField(std::size_t stride, std::size_t rows)
-      : pressures(stride, rows), rates(stride, rows), mean(stride * rows, 0.0) {}
+      : pressures(stride, rows), rates(stride, rows), mean(stride * rows) {}
 
   RowSums<CornerSum> pressures;  ///< volume, and volume times total pressure
   RowSums<double> rates;         ///< volume times tr D
-  std::vector<double> mean;      ///< of pressure (Pa) or tr D (1/s), whichever was averaged last
+  ZeroedArray<double> mean;      ///< of pressure (Pa) or tr D (1/s), whichever was averaged last
 
   void average_pressure();
   void average_rate();
@@ -32,7 +32,7 @@ struct CornerField {
   template <class Archive>
   void visit(Archive& archive) {
     archive(pressures);
-    archive(mean);
+    pressures.visit_used(archive, mean.data());
   }
 };
 
@@ -87,6 +87,6 @@ void push_pressure(const Particles& particles, std::size_t begin, std::size_t en
                    const Material& material, RowSums<CornerSum>& pressures);
 
 /// Value at the place of a point of a field given at corners.
-[[nodiscard]] double at_point(const Grid& grid, const std::vector<double>& mean, double r, double z);
+[[nodiscard]] double at_point(const Grid& grid, const double* mean, double r, double z);
 
 }  // namespace isotach::mpm

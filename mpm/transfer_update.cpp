@@ -156,10 +156,10 @@ void push_pressure(const Particles& q, std::size_t begin, std::size_t end, const
   }
 }
 
-double at_point(const Grid& grid, const std::vector<double>& mean, double r, double z) {
+double at_point(const Grid& grid, const double* mean, double r, double z) {
   const CellPlace place = cell_place(all(r), all(z), 1.0 / grid.cell_size(), grid.stride());
   const CornerOctets w(place);
-  const double* v = mean.data() + place.cell[0];
+  const double* v = mean + place.cell[0];
   return w.w00[0] * v[0] + w.w10[0] * v[1] + w.w01[0] * v[grid.stride()] + w.w11[0] * v[grid.stride() + 1];
 }
 

@@ -36,7 +36,7 @@ class BaseGap : public testing::TestWithParam<Symmetry> {
   }
   /// The rate of corner i on the base after closing, where it was `rate` before.
   double closed(std::size_t i, double rate) {
-    std::fill(field_.mean.begin(), field_.mean.end(), rate);
+    std::fill_n(field_.mean.data(), field_.mean.size(), rate);
     close_gap_above_base(grid_, GetParam(), field_);
     return field_.mean[grid_.index(i, 0)];
   }

@@ -355,7 +355,7 @@ TEST(Transfer, AveragedPressureAndAveragedRateDoTheSameWork) {
   CornerField field(g.stride(), kRows + 2);
   push_pressure(q, 0, q.count, g, material, field.pressures);
   field.average_pressure();
-  const std::vector<double> mean_pressure = field.mean;
+  const std::vector<double> mean_pressure(field.mean.data(), field.mean.data() + field.mean.size());
   std::mt19937 random(52);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<double> divergence(q.count);
@@ -374,8 +374,8 @@ TEST(Transfer, AveragedPressureAndAveragedRateDoTheSameWork) {
   double by_rate = 0.0;
   double size = 0.0;
   for (std::size_t n = 0; n < q.count; ++n) {
-    by_pressure += q.volume(n) * at_point(g, mean_pressure, q.r[n], q.z[n]) * divergence[n];
-    by_rate += q.volume(n) * q.reference_pressure[n] * at_point(g, field.mean, q.r[n], q.z[n]);
+    by_pressure += q.volume(n) * at_point(g, mean_pressure.data(), q.r[n], q.z[n]) * divergence[n];
+    by_rate += q.volume(n) * q.reference_pressure[n] * at_point(g, field.mean.data(), q.r[n], q.z[n]);
     size += q.volume(n) * std::abs(q.reference_pressure[n] * divergence[n]);
   }
   EXPECT_NEAR(by_pressure, by_rate, 1e-13 * size);
