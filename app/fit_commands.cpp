@@ -114,14 +114,21 @@ int fit_slump(const CommonOptions& options, const JournalLine& journal_line) {
   fit_options.simulate = journal.simulate();
   fit_options.threads = options.threads;
   fit_options.control.stop = &interrupted();
-  fit_options.control.callback = [&](int evaluations, double cost) {
-    // a search usually ends within two thirds of the evaluations it may use; the rest is the uncertainty's
-    const double expected = 0.67 * fit_options.max_evaluations;
-    if (evaluations < 0) {
-      progress.update(0.85, "uncertainty and comparison of all tests");
+  fit_options.seed = study.fit.seed;
+  bool searching = true;  // after the search the callback hears of the map's simulations
+  fit_options.stage = [&](const std::string& stage) {
+    if (stage == "uncertainty") searching = false;
+    progress.update(searching ? 0.02 : 0.5, stage);
+  };
+  fit_options.control.callback = [&](int count, double cost) {
+    if (searching) {  // a search usually ends within two thirds of the evaluations it may use
+      const double expected = 0.67 * fit_options.max_evaluations;
+      progress.update(std::min(0.5, 0.1 + 0.4 * count / expected),
+                      fmt::format("evaluation {}, cost {:.5g}", count, cost));
     } else {
-      progress.update(std::min(0.85, 0.85 * evaluations / expected),
-                      fmt::format("evaluation {}, cost {:.5g}", evaluations, cost));
+      const double expected = 20.0 * static_cast<double>(study.slump_tests.size());
+      progress.update(std::min(0.95, 0.55 + 0.4 * count / expected),
+                      fmt::format("map and profiles, {} simulations", count));
     }
   };
   const auto fit = calibration::fit_slump(study, study.material, fit_options);

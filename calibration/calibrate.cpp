@@ -59,7 +59,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
       without(slump_list, [&](ParameterId id) { return contains(oedometer_list, id); });
 
   // expected work in evaluations of the slump tests; the real number decides itself
-  constexpr double kExpected = 40.0;
+  constexpr double kExpected = 65.0;
   double done = 0.0;
   const auto report = [&](double evaluations, const std::string& what) {
     if (options.progress) options.progress(std::min(0.97, (done + evaluations) / kExpected), what);
@@ -97,16 +97,24 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
     const model::Parameters<double> before = *calibration.oedometer.result.parameters;
     auto search = search_slump(study, before, moved, slump_options);
     if (!search) return tl::unexpected(search.error());
+    slump_options.simulation_error = search->simulation_error;
     done += search->search.evaluations;
     found = std::move(*search);
     runs += found->runs;
     if (is_first) {
-      report(0.0, "uncertainty of the slump fit");
+      slump_options.map = true;
+      slump_options.stage = [&](const std::string& stage) { report(0.0, "slump fit: " + stage); };
+      slump_options.control.callback = [&](int simulations, double) {
+        report(simulations / static_cast<double>(study.slump_tests.size()),
+               fmt::format("map of the slump fit, {} simulations", simulations));
+      };
       auto alone = assess_slump(study, *found, moved, slump_options);
       if (!alone) return tl::unexpected(alone.error());
-      runs = alone->runs;  // the search's among them
+      found->parameters = *alone->result.parameters;  // the map may have led on
+      runs = alone->runs;                             // the search's among them
       calibration.slump_alone = std::move(*alone);
-      done += 2.0 * static_cast<double>(moved.size()) + 3.0;
+      slump_options.map = false;
+      done += 2.0 * static_cast<double>(moved.size()) + 23.0;
     }
 
     const model::Parameters<double> after = found->parameters;

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numbers>
 
 #include "calibration/parallel.hpp"
+#include "calibration/profile_verdict.hpp"
 #include "calibration/uncertainty.hpp"
 
 namespace isotach::calibration {
@@ -46,25 +48,34 @@ class RunTally {
   mpm::RunCounts counts_;
 };
 
+void tell(const SlumpFitOptions& options, const char* stage) {
+  if (options.stage) options.stage(stage);
+}
+
+constexpr double kMostVolumeExcess = 0.03;  // of the fill; what points a millimetre off can make of it
+
 /// Simulations without a result.
 long failures(const mpm::RunCounts& runs) {
   return runs.total() - runs[mpm::RunStatus::ok] - runs[mpm::RunStatus::not_settled];
 }
 
-/// The study's tests, whose simulations `tally` counts.
-SlumpExperiments make_experiments(const datasets::Study& study, const SlumpFitOptions& options,
-                                  const std::shared_ptr<RunTally>& tally) {
+/// Simulations as the options want them, counted by `tally`.
+experiments::Simulate counted(const SlumpFitOptions& options, const std::shared_ptr<RunTally>& tally) {
   const experiments::Simulate simulate =
       options.simulate ? options.simulate : plain_simulation(options.control.stop);
-  const auto counted = [simulate, tally](const std::string& test, const model::Parameters<double>& parameters,
-                                         const mpm::SlumpSetup& setup) {
+  return [simulate, tally](const std::string& test, const model::Parameters<double>& parameters,
+                           const mpm::SlumpSetup& setup) {
     auto result = simulate(test, parameters, setup);
     tally->add(result ? mpm::status_of(*result) : result.error().status);
     return result;
   };
+}
+
+SlumpExperiments make_experiments(const datasets::Study& study, const experiments::Simulate& simulate,
+                                  const SimulationError& error) {
   SlumpExperiments all;
   for (const auto& test : study.slump_tests) {
-    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, counted));
+    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, simulate, error.error));
   }
   return all;
 }
@@ -87,6 +98,19 @@ double rms_where(const experiments::Values& values, const std::vector<bool>& cho
   return subset.empty() ? std::numeric_limits<double>::quiet_NaN() : experiments::root_mean_square(subset);
 }
 
+/// The mean over a test's outlines of volume over that of the filled mould, minus one.
+double volume_excess(const datasets::SlumpTest& test) {
+  const double radius = 0.5 * test.setup.mould.diameter;
+  const double fill = std::numbers::pi * radius * radius * test.setup.mould.fill_height;
+  double sum = 0.0;
+  for (const datasets::Outline& outline : test.outlines) {
+    mpm::Outline copy{outline.time, {}};
+    for (const datasets::OutlinePoint& point : outline.points) copy.points.push_back({point.r, point.z});
+    sum += copy.volume() / fill - 1.0;
+  }
+  return sum / static_cast<double>(test.outlines.size());
+}
+
 tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(
     const SlumpExperiments& all, const model::Parameters<double>& parameters, int threads) {
   std::vector<tl::expected<mpm::SlumpResult, experiments::PredictionFailure>> simulations(all.size());
@@ -98,9 +122,10 @@ tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(
     if (!simulations[i]) {
       return tl::unexpected(FitFailure{simulations[i].error().message, simulations[i].error().interrupted});
     }
-    SlumpComparison comparison{all[i], std::move(*simulations[i]), {}, 0.0, 0.0};
+    SlumpComparison comparison{all[i], std::move(*simulations[i]), {}};
     comparison.distances = all[i]->distances(comparison.simulation);
     comparison.rms = experiments::root_mean_square(comparison.distances);
+    comparison.volume_excess = volume_excess(all[i]->test());
     comparison.rms_mould_gone = rms_where(comparison.distances, all[i]->mould_gone());
     comparisons.push_back(std::move(comparison));
   }
@@ -133,7 +158,17 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
                                                    const std::vector<model::ParameterId>& wanted,
                                                    const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
-  const SlumpExperiments all = make_experiments(study, options, tally);
+  const experiments::Simulate simulate = counted(options, tally);
+  SlumpSearch found{start, {}, {}, {}, {}};
+  if (options.simulation_error) {
+    found.simulation_error = *options.simulation_error;
+  } else {
+    tell(options, "error of the simulations");
+    auto measured = measure_simulation_error(study, start, simulate, options.threads);
+    if (!measured) return tl::unexpected(measured.error());
+    found.simulation_error = std::move(*measured);
+  }
+  const SlumpExperiments all = make_experiments(study, simulate, found.simulation_error);
   const Problem problem = make_problem(all, study, start, wanted, options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
 
@@ -148,7 +183,9 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
   if (search.trace.empty()) {
     return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
   }
-  SlumpSearch found{*parametrisation.at(search.coordinates), std::move(search), tally->counts(), {}};
+  found.parameters = *parametrisation.at(search.coordinates);
+  found.search = std::move(search);
+  found.runs = tally->counts();
   if (!found.search.converged) found.warnings.push_back("NLopt stopped early: " + found.search.termination);
   if (found.search.failed_evaluations > 0) {
     found.warnings.push_back(fmt::format("{} of {} evaluations failed and were refused; the last: {}",
@@ -158,22 +195,58 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
   return found;
 }
 
+namespace {
+
+/// Moves the answer to the surrogate's least misfit where simulations there agree better.
+void heed_map(const Problem& problem, const SlumpMap& map, std::vector<double>& answer, FitResult& result) {
+  const auto residuals = problem.residuals(map.best);
+  if (!residuals) return;
+  const double cost = cost_of(*residuals);
+  ++result.main.evaluations;
+  if (!(cost < result.main.cost)) return;
+  answer = map.best;
+  result.main.cost = cost;
+  result.main.coordinates = answer;
+  result.main.trace.push_back({result.main.evaluations, cost, answer});
+  result.parameters = *problem.parametrisation().at(answer);
+}
+
+/// Intervals and verdicts as the profiles have them.
+void heed_profiles(const Problem& problem, const SlumpMap& map, FitResult& result) {
+  for (const Profile& profile : map.profiles) {
+    const Coordinate& coordinate = problem.parametrisation().coordinates()[profile.coordinate];
+    ParameterEstimate& estimate = result.estimates[static_cast<std::size_t>(*coordinate.id)];
+    estimate.ci95_lower = coordinate.quantity(profile.lower);
+    estimate.ci95_upper = coordinate.quantity(profile.upper);
+    if (estimate.verdict != Verdict::undetermined) {
+      estimate.verdict =
+          judge(0.5 * (estimate.ci95_upper - estimate.ci95_lower), range_of(estimate.id, *result.parameters),
+                problem.parametrisation().at_bound(map.best, profile.coordinate));
+    }
+    heed_profile(profile, estimate);
+  }
+}
+
+}  // namespace
+
 tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, const SlumpSearch& found,
                                                 const std::vector<model::ParameterId>& wanted,
                                                 const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
-  const SlumpExperiments all = make_experiments(study, options, tally);
+  const SlumpExperiments all = make_experiments(study, counted(options, tally), found.simulation_error);
   const Problem problem = make_problem(all, study, found.parameters, wanted, options.threads);
-  const std::vector<double> answer = problem.parametrisation().start();
+  std::vector<double> answer = problem.parametrisation().start();
   SlumpFit fit;
   FitResult& result = fit.result;
+  fit.simulation_error = found.simulation_error;
   result.free = problem.parametrisation().free();
   result.coordinates = problem.parametrisation().coordinates();
   result.main = found.search;
   result.warnings = found.warnings;
   result.parameters = found.parameters;
 
-  auto uncertainty = estimate_uncertainty(problem, answer, Correlation::serial);
+  tell(options, "uncertainty");
+  auto uncertainty = estimate_uncertainty(problem, answer, Correlation::independent);
   if (!uncertainty) {
     return tl::unexpected(FitFailure{uncertainty.error().message, uncertainty.error().interrupted});
   }
@@ -183,10 +256,29 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
         failed, failed == 1 ? "" : "s"));
   }
   result.uncertainty = std::move(*uncertainty);
+  if (options.map) {
+    tell(options, "map and profiles");
+    auto map =
+        map_slump(problem, answer, result.uncertainty, {options.threads, options.seed, options.control});
+    if (!map) {
+      if (map.error().interrupted) return tl::unexpected(map.error());
+      result.warnings.push_back("no map, no profiles: " + map.error().message);
+    } else {
+      heed_map(problem, *map, answer, result);
+      fit.map = std::move(*map);
+      // differences of a surrogate carry none of the scatter of simulations
+      if (auto smooth = estimate_uncertainty(with_surrogate(problem, fit.map->surrogate), answer,
+                                             Correlation::independent)) {
+        result.uncertainty = std::move(*smooth);
+      }
+    }
+  }
   result.correlation = correlation_of(result.uncertainty.covariance);
   result.estimates = estimate_parameters(problem, answer, result.uncertainty);
+  if (fit.map) heed_profiles(problem, *fit.map, result);
 
-  auto comparisons = compare_all(all, found.parameters, options.threads);
+  tell(options, "comparison of all tests");
+  auto comparisons = compare_all(all, *result.parameters, options.threads);
   if (!comparisons) return tl::unexpected(comparisons.error());
   fit.comparisons = std::move(*comparisons);
   fit.rms_mould_gone = rms_mould_gone(fit.comparisons);
@@ -194,11 +286,20 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   fit.runs += tally->counts();
   result.adequate = true;
   for (const SlumpComparison& comparison : fit.comparisons) {
-    const experiments::Values scaled = comparison.experiment->scaled_residuals(comparison.distances);
-    const TestSummary test{comparison.experiment->name(), comparison.experiment->held_out(), scaled.size(),
-                           comparison.rms, experiments::root_mean_square(scaled)};
+    const experiments::SlumpExperiment& experiment = *comparison.experiment;
+    const TestSummary test{experiment.name(), experiment.held_out(), comparison.distances.size(),
+                           comparison.rms,
+                           experiments::root_mean_square(experiment.decorrelated(comparison.distances))};
     if (!test.held_out && test.rms_over_noise > kAdequate) result.adequate = false;
     result.tests.push_back(test);
+    if (std::abs(comparison.volume_excess) > kMostVolumeExcess) {
+      result.warnings.push_back(
+          fmt::format("the outlines of {} hold {:.1f} % {} than the mould did: their scale, edge or axis is "
+                      "off, and no simulation "
+                      "that keeps its volume can meet them everywhere",
+                      test.name, 100.0 * std::abs(comparison.volume_excess),
+                      comparison.volume_excess > 0.0 ? "more" : "less"));
+    }
   }
   return fit;
 }
@@ -208,7 +309,6 @@ tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study,
                                              const SlumpFitOptions& options) {
   const auto found = search_slump(study, start, study.fit.slump, options);
   if (!found) return tl::unexpected(found.error());
-  if (options.control.callback) options.control.callback(-1, found->search.cost);
   return assess_slump(study, *found, study.fit.slump, options);
 }
 

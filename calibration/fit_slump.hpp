@@ -3,6 +3,8 @@
 #pragma once
 
 #include "calibration/fit_result.hpp"
+#include "calibration/simulation_error.hpp"
+#include "calibration/slump_map.hpp"
 #include "datasets/study.hpp"
 #include "experiments/slump_experiment.hpp"
 
@@ -15,6 +17,7 @@ struct SlumpComparison {
   experiments::Values distances;  ///< m, signed, at each measured point
   double rms = 0.0;               ///< m, all times
   double rms_mould_gone = 0.0;    ///< m, times from which the rim had left the mud; NaN if there is none
+  double volume_excess = 0.0;     ///< of the measured outlines over the fill of the mould, mean over times
 };
 
 struct SlumpFit {
@@ -22,6 +25,8 @@ struct SlumpFit {
   std::vector<SlumpComparison> comparisons;  ///< all tests of the study
   double rms_mould_gone = 0.0;               ///< m, over all tests, held-out ones included
   mpm::RunCounts runs;                       ///< simulations by how they ended, those of the search included
+  SimulationError simulation_error;
+  std::optional<SlumpMap> map;  ///< where it was asked for
 };
 
 struct SlumpFitOptions {
@@ -31,6 +36,12 @@ struct SlumpFitOptions {
   double first_step_C_1 = 0.08;
   OptimiserControl control;
   experiments::Simulate simulate;  ///< where empty, mpm::run_slump until control.stop
+  /// Measured at the start values where absent.
+  std::optional<SimulationError> simulation_error;
+  bool map = true;    ///< profiles and map by a surrogate; intervals then are those of the profiles
+  unsigned seed = 1;  ///< of the surrogate's points
+  /// Called with what is being done, besides what control.callback hears of the search.
+  std::function<void(const std::string&)> stage;
 };
 
 /// What a search found, before its uncertainty and the comparison with all tests are worked out.
@@ -38,6 +49,7 @@ struct SlumpSearch {
   model::Parameters<double> parameters;
   OptimiserResult search;
   mpm::RunCounts runs;  ///< simulations by how they ended
+  SimulationError simulation_error;
   std::vector<std::string> warnings;
 };
 
@@ -47,8 +59,9 @@ struct SlumpSearch {
     const datasets::Study& study, const model::Parameters<double>& start,
     const std::vector<model::ParameterId>& wanted, const SlumpFitOptions& options);
 
-/// Uncertainty of `wanted` at the answer of a search (two evaluations a parameter and one) and the comparison
-/// with all tests, held-out ones included.
+/// Uncertainty of `wanted` at the answer of a search (two evaluations a parameter and one), with
+/// SlumpFitOptions::map also profiles, map and a last step to the surrogate's least misfit, if the
+/// simulations there agree better; and the comparison with all tests, held-out ones included.
 [[nodiscard]] tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study,
                                                               const SlumpSearch& found,
                                                               const std::vector<model::ParameterId>& wanted,

@@ -19,13 +19,22 @@ SlumpNoise read_slump_noise(TomlTable& test, Assumptions& assumptions) {
   SlumpNoise noise;
   std::optional<double> outline_mm;
   std::optional<double> lifting_mm;
+  std::optional<double> shared_mm;
+  constexpr double kSharedPart = 0.7;  // of the standard deviation: half of the variance
   if (auto table = test.table_if("noise")) {
     outline_mm = table->number_if("outline_mm", Range::positive(100.0));
     lifting_mm = table->number_if("lifting_mm", Range::positive(100.0));
+    shared_mm =
+        table->number_if("shared_mm", Range{0.0, outline_mm.value_or(1e3 * noise.outline), false, true});
     table->reject_unknown_keys();
   }
   if (outline_mm) noise.outline = 1e-3 * *outline_mm;
   if (lifting_mm) noise.lifting = 1e-3 * *lifting_mm;
+  noise.shared = shared_mm ? 1e-3 * *shared_mm : kSharedPart * noise.outline;
+  if (!shared_mm) {
+    assumptions.add(
+        fmt::format("error that an outline's points share not given, {:.3g} mm assumed", 1e3 * noise.shared));
+  }
   if (!outline_mm) {
     assumptions.add(fmt::format("noise of outlines not given, {} mm assumed", 1e3 * noise.outline));
   }

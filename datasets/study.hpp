@@ -117,8 +117,9 @@ struct OedometerTest {
 
 /// Standard deviations of an outline's points (m).
 struct SlumpNoise {
-  double outline = 1e-3;
+  double outline = 1e-3;    ///< of a point once the rim has left the mud, everything included
   double lifting = 2.5e-3;  ///< while the rim is below the top of the mud
+  double shared = 0.7e-3;   ///< the part of `outline` that neighbouring points and times share; < outline
 };
 
 /// [[slump]], SI. The times of `setup` are those of `outlines`.

@@ -2,12 +2,30 @@
 #include "experiments/slump_experiment.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/outline_distance.hpp"
 
 namespace isotach::experiments {
 
-SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, Simulate simulate)
+namespace {
+
+constexpr double kSpacing = 4e-3;  // m of outline for each station: some twenty on a slump of this size
+
+}  // namespace
+
+OutlineErrors errors_of(const datasets::SlumpNoise& noise, const SharedError& simulation) {
+  const double reading2 = std::max(0.0, noise.outline * noise.outline - noise.shared * noise.shared);
+  OutlineErrors errors;
+  errors.reading = std::sqrt(reading2);
+  errors.measuring.outline = noise.shared;
+  errors.measuring.lifting = std::sqrt(std::max(0.0, noise.lifting * noise.lifting - reading2));
+  errors.simulation = simulation;
+  return errors;
+}
+
+SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, Simulate simulate,
+                                 const SharedError& simulation_error)
     : test_(std::move(test)), simulate_(std::move(simulate)) {
   for (std::size_t k = 0; k < test_.outlines.size(); ++k) {
     const datasets::Outline& outline = test_.outlines[k];
@@ -15,12 +33,17 @@ SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, Simulate simulate)
     for (const auto& point : outline.points) top = std::max(top, point.z);
     const bool gone = test_.setup.mould.rim(outline.time) >= top;
     for (std::size_t i = 0; i < outline.points.size(); ++i) {
-      zeros_.push_back(0.0);
-      noise_.push_back(gone ? test_.noise.outline : test_.noise.lifting);
+      point_noise_.push_back(gone ? test_.noise.outline : test_.noise.lifting);
       mould_gone_.push_back(gone);
       outline_index_.push_back(k);
     }
   }
+  stations_ = outline_stations(test_.outlines, kSpacing);
+  std::vector<bool> gone;
+  for (const OutlineStation& station : stations_) gone.push_back(mould_gone_[station.points.front()]);
+  factor_.compute(station_covariance(stations_, gone, errors_of(test_.noise, simulation_error)));
+  zeros_.assign(stations_.size(), 0.0);
+  ones_.assign(stations_.size(), 1.0);
 }
 
 double SlumpExperiment::cost() const {
@@ -39,7 +62,7 @@ tl::expected<mpm::SlumpResult, PredictionFailure> SlumpExperiment::simulate(
 
 Values SlumpExperiment::distances(const mpm::SlumpResult& result) const {
   Values values;
-  values.reserve(zeros_.size());
+  values.reserve(point_noise_.size());
   for (std::size_t k = 0; k < test_.outlines.size(); ++k) {
     for (const auto& point : test_.outlines[k].points) {
       values.push_back(signed_distance({point.r, point.z}, result.outlines[k].points));
@@ -48,11 +71,25 @@ Values SlumpExperiment::distances(const mpm::SlumpResult& result) const {
   return values;
 }
 
+Values SlumpExperiment::in_noise(const Values& distances) const {
+  Values scaled;
+  scaled.reserve(distances.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) scaled.push_back(distances[i] / point_noise_[i]);
+  return scaled;
+}
+
+Values SlumpExperiment::decorrelated(const Values& distances) const {
+  Values means = station_means(stations_, distances);
+  factor_.matrixL().solveInPlace(
+      Eigen::Map<Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size())));
+  return means;
+}
+
 tl::expected<Values, PredictionFailure> SlumpExperiment::predict(const model::Parameters<double>& parameters,
                                                                  std::span<const double> /*local*/) const {
   const auto result = simulate(parameters);
   if (!result) return tl::unexpected(result.error());
-  return distances(*result);
+  return decorrelated(distances(*result));
 }
 
 }  // namespace isotach::experiments

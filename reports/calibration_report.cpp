@@ -13,6 +13,7 @@
 #include "reports/oedometer_report.hpp"
 #include "reports/oedometer_summary.hpp"
 #include "reports/slump_fit_report.hpp"
+#include "reports/slump_map_section.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -121,11 +122,13 @@ Page calibration_report(const RunInfo& run, const datasets::Study& study, const 
   page.table(parameter_table(calibration.slump_alone.result.estimates,
                              "What the slump tests alone say, from the first slump fit.",
                              Meanings::left_out));
+  add_slump_map(page, calibration.slump_alone);
   page.paragraph(
-      "In undrained flow at the critical state C_1 only scales the rate, by (1 - C_1): outlines hardly see "
-      "it. A "
-      "parameter that the oedometer moves too, other than I_v, is therefore the oedometer's in the later "
-      "rounds.");
+      "A parameter that the oedometer moves too, other than I_v, is the oedometer's in the later rounds: in "
+      "undrained "
+      "flow at the critical state C_1 only scales the rate, by (1 − C_1), and what outlines say of it rests "
+      "on the "
+      "way there.");
   page.paragraph("Verdicts on parameters. " + std::string(kVerdictNote));
   page.paragraph(
       "Below follow the last fits of the chain; the searches they show are those of the last round.");

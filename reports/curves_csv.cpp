@@ -61,7 +61,7 @@ void write_distances(OutputDirectory& output, const std::string& name,
                                        {"r_mm", r},
                                        {"z_mm", z},
                                        {"distance_mm", distance},
-                                       {"distance_in_noise", test.scaled_residuals(comparison.distances)},
+                                       {"distance_in_noise", test.in_noise(comparison.distances)},
                                        {"mould_gone", gone}};
   output.write_csv(name, columns);
 }

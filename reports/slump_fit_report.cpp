@@ -10,6 +10,7 @@
 #include "reports/estimates.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
+#include "reports/slump_map_section.hpp"
 #include "reports/slump_tables.hpp"
 #include "reports/units.hpp"
 
@@ -86,8 +87,8 @@ Table test_table(const datasets::Study& study, const SlumpFit& fit) {
   using enum Alignment;
   Table table{.caption = "Slump tests: root mean square distance between outlines.",
               .header = {"Test", "Data", "Use", "Points", "All times (mm)", "Rim gone (mm)", "Bias (mm)",
-                         "rms / noise"},
-              .alignment = {left, left, left, right, right, right, right, right}};
+                         "Volume (%)", "rms / noise"},
+              .alignment = {left, left, left, right, right, right, right, right, right}};
   for (std::size_t i = 0; i < fit.comparisons.size(); ++i) {
     const SlumpComparison& comparison = fit.comparisons[i];
     const calibration::TestSummary& summary = fit.result.tests[i];
@@ -102,13 +103,15 @@ Table test_table(const datasets::Study& study, const SlumpFit& fit) {
                           summary.held_out ? "held out" : "fitted", fmt::format("{}", summary.values),
                           millimetres(comparison.rms), millimetres(comparison.rms_mould_gone),
                           count == 0 ? kMissing : millimetres(sum / static_cast<double>(count), 2),
+                          fmt::format("{:+.1f}", 100.0 * comparison.volume_excess),
                           format_number(summary.rms_over_noise, 3)});
   }
-  table.notes = {
-      fmt::format("All tests together, from when the rim had left the mud: {} mm. Bias: mean signed distance "
-                  "from then on, positive "
-                  "where the simulated mud reaches too far.",
-                  millimetres(fit.rms_mould_gone))};
+  table.notes = {fmt::format(
+      "All tests together, from when the rim had left the mud: {} mm. Bias: mean signed distance "
+      "from then on, positive "
+      "where the simulated mud reaches too far. Volume: of the measured outlines above that of the mould's "
+      "fill, mean over times. rms / noise: of what is fitted, mean distances on stretches, decorrelated.",
+      millimetres(fit.rms_mould_gone))};
   return table;
 }
 
@@ -117,7 +120,7 @@ double strength_ratio(double I_v, double C_1, double other_C_1) {
   return std::pow((1.0 - other_C_1) / (1.0 - C_1), I_v);
 }
 
-/// Why a slump says little on C_1, with this fit's numbers.
+/// What a slump can say on C_1, with this fit's numbers.
 std::string C_1_sentence(const SlumpFit& fit) {
   const calibration::ParameterEstimate& C_1 = estimate_of(fit.result, ParameterId::C_1);
   const double change = 1.0 - strength_ratio(fit.result.parameters->I_v(), C_1.ci95_lower, C_1.ci95_upper);
@@ -125,8 +128,8 @@ std::string C_1_sentence(const SlumpFit& fit) {
       "In undrained flow at the critical state C_1 enters only as a factor (1 − C_1) on the rate, so "
       "strength at a "
       "given rate goes with (1 − C_1)^I_v: over the whole 95 % interval of C_1, {} to {}, it changes by {} "
-      "%. An "
-      "outline can hardly see that, however well it is measured.",
+      "%. What "
+      "outlines say of C_1 beyond that they say of the way to the critical state, in the first second.",
       format_number(C_1.ci95_lower, 3), format_number(C_1.ci95_upper, 3), format_number(100.0 * change, 2));
 }
 
@@ -155,23 +158,27 @@ void add_slump_fit_section(Page& page, const datasets::Study& study, const Slump
   page.section("Slump tests");
   add_outlines(page, fit);
   page.table(test_table(study, fit));
+  add_where_it_fails(page, fit);
+  add_slump_map(page, fit);
 
   if (Table correlation = correlation_table(result); !correlation.rows.empty())
     page.table(std::move(correlation));
-  page.paragraph(fmt::format(
-      "Standard errors come from central differences between simulations at the answer and the noise that "
-      "the study "
-      "states, times {} for misfit beyond that noise and for errors that neighbouring points share "
-      "(correlation {} "
-      "from point to point).",
-      format_number(result.uncertainty.inflation, 3), format_number(result.uncertainty.autocorrelation, 2)));
+  page.paragraph(
+      fmt::format("What is fitted are mean distances on stretches of some 4 mm of each outline, decorrelated "
+                  "by their covariance: "
+                  "each point's own error, what the study says neighbours share, and the error of the "
+                  "simulations. Standard errors "
+                  "come from {}, times {} for misfit beyond that noise.",
+                  fit.map ? "the surrogate" : "central differences between simulations",
+                  format_number(result.uncertainty.inflation, 3)));
+  add_simulation_error(page, fit);
   for (const std::string& sentence : null_direction_sentences(result)) page.box(Tone::warning, sentence);
   std::vector<Figure> figures{cost_figure(result)};
   for (std::size_t k = 0; k < result.coordinates.size(); ++k) figures.push_back(parameter_figure(result, k));
   std::size_t i = figures.size() % 2;
   if (i == 1) page.figure(std::move(figures.front()));
   for (; i + 1 < figures.size(); i += 2) page.figures(std::move(figures[i]), std::move(figures[i + 1]));
-  page.table(route_table(result));
+  page.table(route_table(result, fit.map ? fit.map->routes : std::vector<calibration::OptimiserResult>{}));
 
   const std::vector<NamedRun> runs = runs_of(fit);
   if (!runs.empty()) page.paragraph(numerics_text(runs.front()));

@@ -47,7 +47,7 @@ hold_out = true
 [[slump]]
 name = "slump"
 data = "slump.csv"
-noise = { outline_mm = 1.2, lifting_mm = 3 }
+noise = { outline_mm = 1.2, lifting_mm = 3, shared_mm = 0.5 }
 [slump.mould]
 diameter_mm = 78.0
 fill_height_mm = 140.0
@@ -135,6 +135,7 @@ TEST_F(StudyFile, ComesOutInSI) {
   EXPECT_EQ(slump.outlines.size(), 2U);
   EXPECT_DOUBLE_EQ(slump.noise.outline, 0.0012);
   EXPECT_DOUBLE_EQ(slump.noise.lifting, 0.003);
+  EXPECT_DOUBLE_EQ(slump.noise.shared, 0.0005);
   EXPECT_FALSE(slump.hold_out);
   EXPECT_TRUE(study.assumptions.empty());
 }

@@ -30,6 +30,22 @@ TEST(SlumpFitReport, ShowsOutlinesAndSaysWhatCannotBeKnown) {
   EXPECT_EQ(count(html, "<svg "), 5U);
 }
 
+TEST(SlumpFitReport, SaysHowWellOutlinesHoldWhatWasFittedAndWhereTheyDoNot) {
+  const calibration::SlumpFit& fit = small_calibration().slump_alone;
+  ASSERT_TRUE(fit.map.has_value());
+  const std::string html = slump_fit_report(run_of("fit-slump"), small_study(), fit).html();
+  expect_parts(
+      html, {"How well the outlines hold what was fitted", "principal components",
+             "95 % intervals by profile", "Where simulation and data disagree most",
+             "4 cells across the radius instead of 3", "9 points a cell instead of 4", "Volume (%)", "CRS2"});
+  // two tests; map; two profiles; cost, I_v and C_1 against evaluations
+  EXPECT_EQ(count(html, "<svg "), 8U);
+  const calibration::ParameterEstimate& I_v =
+      fit.result.estimates[static_cast<std::size_t>(model::ParameterId::I_v)];
+  const calibration::Profile& profile = fit.map->profiles.front();
+  EXPECT_DOUBLE_EQ(I_v.ci95_lower, std::exp(profile.lower)) << "intervals are the profile's";
+}
+
 TEST(SlumpReport, ShowsOneRun) {
   const std::string html = slump_report(run_of("slump"), short_slump_test(), short_slump()).html();
   const mpm::Outline& last = short_slump().outlines.back();

@@ -21,7 +21,7 @@ constexpr double kReading = 0.2e-3;  // m, standard deviation of a point of the 
 /// A slump of a low fill with coarse cells: quick. The mud is wet enough (C_u at D_r 31 and 43 Pa) to flow at
 /// any I_v tried: a fill of 40 mm stands up to about 100 Pa, and mud that stands holds no I_v.
 datasets::SlumpTest small_slump(const std::string& name, double void_ratio, unsigned seed) {
-  datasets::SlumpTest test{name, {}, {}, {}, {kReading, kReading}, false};
+  datasets::SlumpTest test{name, {}, {}, {}, {kReading, kReading, 0.0}, false};
   test.setup.mould.fill_height = 0.04;
   test.setup.mud.void_ratio = void_ratio;
   test.setup.numerics.cell_size = 0.013;
@@ -62,7 +62,8 @@ TEST_P(FitSlump, RecoversTheIvOfTheTruth) {
   ASSERT_TRUE(found.has_value()) << found.error().message;
   EXPECT_TRUE(found->search.converged) << found->search.termination;
   EXPECT_NEAR(found->parameters.I_v() / kTrueIv, 1.0, 0.03);
-  EXPECT_EQ(found->runs.total(), 2 * found->search.evaluations);
+  // besides the search, the error of the simulations: both tests with four kinds of numerics
+  EXPECT_EQ(found->runs.total(), 2 * (found->search.evaluations + 4));
   for (const model::ParameterId id : {e100, lambda, kappa, D_r, phi_c, C_1}) {
     EXPECT_EQ(found->parameters[id], tests::seed_mud()[id]);
   }

@@ -1,0 +1,174 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/simulation_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/parallel.hpp"
+#include "experiments/outline_distance.hpp"
+
+namespace isotach::calibration {
+
+namespace {
+
+constexpr std::size_t kPlaces = 24;  // along an outline
+constexpr int kManyPoints = 9;       // a cell
+
+/// A study's numerics changed.
+struct Change {
+  int more_cells = 0;  ///< across the radius
+  bool more_points = false;
+};
+constexpr Change kChanges[] = {{1, false}, {2, false}, {0, true}};
+
+int cells_of(const mpm::SlumpSetup& setup) {
+  return static_cast<int>(std::max(1.0, std::round(0.5 * setup.mould.diameter / setup.numerics.cell_size)));
+}
+
+mpm::SlumpSetup changed(mpm::SlumpSetup setup, const Change& change) {
+  setup.numerics.cell_size = 0.5 * setup.mould.diameter / (cells_of(setup) + change.more_cells);
+  if (change.more_points) setup.numerics.points_per_cell = kManyPoints;
+  return setup;
+}
+
+std::string name_of(const Change& change, const mpm::SlumpSetup& setup) {
+  if (change.more_points) {
+    return fmt::format("{} points a cell instead of {}", kManyPoints, setup.numerics.points_per_cell);
+  }
+  return fmt::format("{} cells across the radius instead of {}", cells_of(setup) + change.more_cells,
+                     cells_of(setup));
+}
+
+/// Sums over pairs of differences.
+struct Moments {
+  double squares = 0.0;
+  std::size_t count = 0;
+  void add(double difference) {
+    squares += difference * difference;
+    ++count;
+  }
+  [[nodiscard]] double rms() const {
+    return count == 0 ? std::nan("") : std::sqrt(squares / static_cast<double>(count));
+  }
+};
+
+/// Product moments of neighbours over their squares, and how far apart they are on average.
+struct Neighbours {
+  double products = 0.0;
+  double squares = 0.0;
+  double apart = 0.0;
+  std::size_t count = 0;
+  void add(double a, double b, double distance) {
+    products += a * b;
+    squares += 0.5 * (a * a + b * b);
+    apart += distance;
+    ++count;
+  }
+  /// The length of exp(-distance/length), within limits; `otherwise` where nothing is known.
+  [[nodiscard]] double length(double otherwise, double least, double most) const {
+    if (count == 0 || !(squares > 0.0)) return otherwise;
+    const double correlation = std::clamp(products / squares, 1e-6, 1.0 - 1e-6);
+    return std::clamp(-apart / static_cast<double>(count) / std::log(correlation), least, most);
+  }
+};
+
+/// What the differences of one test say.
+class Differences {
+ public:
+  void add(const mpm::SlumpResult& base, const mpm::SlumpResult& other, const mpm::SlumpSetup& setup,
+           Moments& outline, Moments& lifting) {
+    std::vector<double> before;
+    for (std::size_t k = 0; k < base.outlines.size(); ++k) {
+      const double time = setup.times[k];
+      const bool gone = setup.mould.rim(time) >= base.outlines[k].height();
+      std::vector<double> now;
+      for (const mpm::OutlinePoint& point : experiments::resampled(base.outlines[k].points, kPlaces)) {
+        now.push_back(experiments::signed_distance(point, other.outlines[k].points));
+        (gone ? outline : lifting).add(now.back());
+        (gone ? outline_ : lifting_).add(now.back());
+      }
+      for (std::size_t i = 1; i < now.size(); ++i) {
+        along_.add(now[i - 1], now[i], 1.0 / static_cast<double>(kPlaces - 1));
+      }
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        in_time_.add(before[i], now[i], std::abs(std::log(time / setup.times[k - 1])));
+      }
+      before = std::move(now);
+    }
+  }
+  [[nodiscard]] experiments::SharedError error() const {
+    experiments::SharedError error;
+    const double outline = outline_.rms();
+    const double lifting = lifting_.rms();
+    error.outline = std::isfinite(outline) ? outline : lifting;
+    error.lifting = std::isfinite(lifting) ? lifting : outline;
+    error.along = along_.length(error.along, 0.02, 1.0);
+    error.in_time = in_time_.length(error.in_time, 0.1, 10.0);
+    return error;
+  }
+
+ private:
+  Moments outline_;
+  Moments lifting_;
+  Neighbours along_;
+  Neighbours in_time_;
+};
+
+}  // namespace
+
+tl::expected<SimulationError, FitFailure> measure_simulation_error(
+    const datasets::Study& study, const model::Parameters<double>& parameters,
+    const experiments::Simulate& simulate, int threads) {
+  std::vector<const datasets::SlumpTest*> tests;
+  for (const datasets::SlumpTest& test : study.slump_tests) {
+    if (!test.hold_out) tests.push_back(&test);
+  }
+  constexpr std::size_t kVariants = std::size(kChanges);
+  // the last run of each test is that of the study's numerics
+  std::vector<tl::expected<mpm::SlumpResult, mpm::RunFailure>> runs(tests.size() * (kVariants + 1));
+  parallel_for(runs.size(), threads, [&](std::size_t i) {
+    const datasets::SlumpTest& test = *tests[i % tests.size()];
+    const std::size_t variant = i / tests.size();
+    runs[i] = simulate(test.name, parameters,
+                       variant < kVariants ? changed(test.setup, kChanges[variant]) : test.setup);
+  });
+  SimulationError result;
+  Differences differences;
+  std::string last_failure;
+  const std::size_t bases = tests.size() * kVariants;
+  for (const auto& run : runs) {
+    if (run) continue;
+    if (run.error().status == mpm::RunStatus::interrupted)
+      return tl::unexpected(FitFailure{"interrupted", true});
+    last_failure = run.error().message;
+  }
+  bool any = false;
+  for (std::size_t variant = 0; variant < kVariants; ++variant) {
+    NumericalVariant found;
+    found.name = name_of(kChanges[variant], tests.front()->setup);
+    Moments outline;
+    Moments lifting;
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      const auto& base = runs[bases + t];
+      const auto& other = runs[variant * tests.size() + t];
+      if (!other) ++found.failed;
+      if (!base || !other) continue;
+      differences.add(*base, *other, tests[t]->setup, outline, lifting);
+      any = true;
+    }
+    found.outline = outline.rms();
+    found.lifting = lifting.rms();
+    result.variants.push_back(std::move(found));
+  }
+  for (std::size_t t = 0; t < tests.size(); ++t) result.failed += runs[bases + t] ? 0U : 1U;
+  if (!any) {
+    return tl::unexpected(FitFailure{
+        "the error of the simulations cannot be measured at the start values: " + last_failure, false});
+  }
+  result.error = differences.error();
+  return result;
+}
+
+}  // namespace isotach::calibration

@@ -1,0 +1,38 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// How far a simulated outline can be trusted: the same tests with other cells and points.
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "calibration/fit_result.hpp"
+#include "datasets/study.hpp"
+#include "experiments/slump_experiment.hpp"
+
+namespace isotach::calibration {
+
+/// Simulations of all tests with their numerics changed in one way.
+struct NumericalVariant {
+  std::string name;        ///< "7 cells across the radius instead of 6"
+  double outline = 0.0;    ///< root mean square distance (m) of its outlines, once the rim has left the mud
+  double lifting = 0.0;    ///< and before; NaN if there is no such outline
+  std::size_t failed = 0;  ///< simulations without a result
+};
+
+struct SimulationError {
+  experiments::SharedError error;  ///< what goes into the covariance
+  std::vector<NumericalVariant> variants;
+  std::size_t failed = 0;  ///< simulations of the study's own numerics without a result
+};
+
+/// Compares outlines of the tests that are fitted with those of one and two cells more across the radius and
+/// of nine points a cell. The differences of all variants, which share neither grid nor points with the base,
+/// are taken as they are for the error: half of their variance may be the variants' own, but an error common
+/// to all of them is not seen. Correlations are those of neighbouring places and times. Nothing of the data
+/// is used.
+[[nodiscard]] tl::expected<SimulationError, FitFailure> measure_simulation_error(
+    const datasets::Study& study, const model::Parameters<double>& parameters,
+    const experiments::Simulate& simulate, int threads);
+
+}  // namespace isotach::calibration
