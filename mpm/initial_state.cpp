@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWaterDensity = 1000.0;  // kg/m3
 
-// C_u / p_B at the undrained critical state
+/// C_u / p_B at the undrained critical state
 double strength_ratio(const model::Law<double>& law, double rate) {
   const auto& parameters = law.parameters();
   return 0.25 * law.critical_ratio() *
@@ -27,6 +27,11 @@ double void_ratio_from_strength(const model::Parameters<double>& parameters, dou
   return law.void_ratio_at(undrained_strength / strength_ratio(law, strength_rate));
 }
 
+double critical_state_strength(const model::Parameters<double>& parameters, const InitialState& initial,
+                               double rate) {
+  return initial.preconsolidation_pressure * strength_ratio(model::Law<double>(parameters), rate);
+}
+
 InitialState initial_state(const model::Parameters<double>& parameters, const Mud& mud) {
   const model::Law<double> law(parameters);
   InitialState state;
@@ -37,7 +42,7 @@ InitialState initial_state(const model::Parameters<double>& parameters, const Mu
   state.preconsolidation_pressure = law.preconsolidation_pressure(state.void_ratio);
   state.mean_effective_pressure = state.preconsolidation_pressure / mud.overconsolidation_ratio;
   state.density = kWaterDensity * (mud.specific_gravity + state.void_ratio) / (1.0 + state.void_ratio);
-  state.undrained_strength = state.preconsolidation_pressure * strength_ratio(law, state.strength_rate);
+  state.undrained_strength = critical_state_strength(parameters, state, state.strength_rate);
   return state;
 }
 

@@ -123,6 +123,11 @@ struct RunOptions {
 /// q_cs = M p_B/2 [|D| (1 - C_1)/D_r]^I_v, C_u = q_cs/2, |D| = strength_rate (D_r where not given).
 [[nodiscard]] InitialState initial_state(const model::Parameters<double>& parameters, const Mud& mud);
 
+/// Undrained strength q/2 (Pa) at the critical state, in triaxial compression at the rate |D| (1/s), > 0, of
+/// mud that keeps the void ratio it starts from: M p_B0/4 [|D| (1 - C_1)/D_r]^I_v.
+[[nodiscard]] double critical_state_strength(const model::Parameters<double>& parameters,
+                                             const InitialState& initial, double rate);
+
 /// Total vertical stress on the base of the filled mould (Pa), compression positive.
 [[nodiscard]] double fill_pressure(const model::Parameters<double>& parameters, const SlumpSetup& setup);
 

@@ -32,6 +32,21 @@ TEST(InitialState, StrengthGrowsWithRateToThePowerIv) {
   EXPECT_NEAR(initial_state(seed_mud(), mud).undrained_strength, 141.68419, 1e-4);
 }
 
+// The mud of the test above, however its strength was measured. Between 1e-4 and 1 /s the strength grows by
+// 1e4^I_v = 1.2022644.
+TEST(InitialState, StrengthAtAnyRateFollowsFromTheVoidRatioAlone) {
+  Mud mud;
+  mud.void_ratio = 3.891;
+  for (const double measured_at : {6.8e-7, 1.0}) {
+    mud.strength_rate = measured_at;
+    const InitialState state = initial_state(seed_mud(), mud);
+    EXPECT_NEAR(critical_state_strength(seed_mud(), state, 0.01), 141.68419, 1e-4);
+    EXPECT_NEAR(
+        critical_state_strength(seed_mud(), state, 1.0) / critical_state_strength(seed_mud(), state, 1e-4),
+        1.2022644, 1e-6);
+  }
+}
+
 // 117 Pa at 0.01 /s: p_B = 117 Pa/(M/4 14264.7^0.02), e = 2.358 (p_B/100 kPa)^-0.154 - 1
 TEST(InitialState, VoidRatioIsSolvedFromTheStrength) {
   EXPECT_NEAR(void_ratio_from_strength(seed_mud(), 117.0, 0.01), 4.0373315, 1e-6);
