@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/number.hpp"
 #include "reports/slump_json.hpp"
 #include "reports/units.hpp"
@@ -47,11 +49,23 @@ Table start_table(std::span<const NamedRun> runs) {
                           format_number(1e-3 * initial.mean_effective_pressure, 3),
                           format_number(1e-3 * initial.undrained_strength, 3)});
   }
-  const double rate = runs.empty() ? 0.0 : runs.front().result->initial.strength_rate;
-  table.notes = {
-      fmt::format("C_u is the undrained strength at the critical state at |D| = {} 1/s; p_B0 the "
-                  "preconsolidation pressure, p′ the isotropic effective pressure of the start.",
-                  format_number(rate, 3))};
+  const auto rate_of = [](const NamedRun& run) { return run.result->initial.strength_rate; };
+  const bool one_rate = std::all_of(runs.begin(), runs.end(),
+                                    [&](const auto& r) { return rate_of(r) == rate_of(runs.front()); });
+  std::string rate = "the |D| of its column";
+  if (one_rate) {
+    rate = fmt::format("|D| = {} 1/s", format_number(runs.empty() ? 0.0 : rate_of(runs.front()), 3));
+  } else {
+    table.header.emplace_back("|D| (1/s)");
+    table.alignment.push_back(right);
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      table.rows[k].push_back(format_number(rate_of(runs[k]), 2));
+    }
+  }
+  table.notes = {fmt::format(
+      "C_u is the undrained strength at the critical state at {}; p_B0 the preconsolidation pressure, p′ the "
+      "isotropic effective pressure of the start.",
+      rate)};
   return table;
 }
 
