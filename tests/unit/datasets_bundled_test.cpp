@@ -2,11 +2,13 @@
 // The bundled studies and slump files: all of them are read, and hold what their sources state.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "datasets/slump_file.hpp"
 #include "datasets/study.hpp"
@@ -118,6 +120,37 @@ TEST(BundledData, Table1) {
     EXPECT_DOUBLE_EQ(slump.setup.mould.lift_speed, (test - 1) % 4 < 2 ? 0.06 : 0.01);
     EXPECT_DOUBLE_EQ(slump.material.I_v(), 0.02);
     EXPECT_DOUBLE_EQ(slump.material.C_1(), 0.03);
+    // where fast and slow lifts are compared
+    for (const double time : {2.0, 5.0, 15.0, 30.0}) {
+      EXPECT_EQ(std::count(slump.setup.times.begin(), slump.setup.times.end(), time), 1) << test;
+    }
+  }
+}
+
+TEST(BundledData, FinalSetAtTheTimeOfFigure9) {
+  for (const auto& [test, lift_speed] : {std::pair{"1", 0.06}, std::pair{"3", 0.01}}) {
+    const SlumpFile slump = read_slump_file(bundled("pippi2019/final-test-" + std::string(test) + ".toml"));
+    EXPECT_DOUBLE_EQ(slump.material.I_v(), 0.02);
+    EXPECT_DOUBLE_EQ(slump.material.C_1(), 0.03);
+    EXPECT_DOUBLE_EQ(slump.setup.mould.fill_height, 0.14);
+    EXPECT_DOUBLE_EQ(slump.setup.mould.lift_speed, lift_speed);
+    EXPECT_EQ(slump.setup.times, (std::vector{30.0}));
+  }
+}
+
+/// The page's own files are the seed's, but for what they are there to change.
+TEST(BundledData, ShortColumnsOfTheSeedProgrammeAreThoseOfFigure7) {
+  for (const std::string I_v : {"0.03", "0.05", "0.06"}) {
+    const SlumpFile own = read_slump_file(std::filesystem::path(ISOTACH_SOURCE_DIR) /
+                                          ("docs/seed-programme/short-iv-" + I_v + ".toml"));
+    const SlumpFile paper = read_slump_file(bundled("pippi2019/iv-" + I_v + ".toml"));
+    EXPECT_EQ(own.material.values().values, paper.material.values().values);
+    EXPECT_EQ(own.setup.mud.undrained_strength, paper.setup.mud.undrained_strength);
+    EXPECT_EQ(own.setup.mud.strength_rate, 1e-3);
+    EXPECT_EQ(own.setup.mould.fill_height, 0.07);
+    EXPECT_EQ(own.setup.mould.lift_speed, paper.setup.mould.lift_speed);
+    EXPECT_EQ(own.setup.mud.overconsolidation_ratio, paper.setup.mud.overconsolidation_ratio);
+    EXPECT_EQ(own.setup.numerics.cell_size, paper.setup.numerics.cell_size);
   }
 }
 
