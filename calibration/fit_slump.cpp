@@ -105,6 +105,8 @@ double volume_excess(const datasets::SlumpTest& test) {
   double sum = 0.0;
   for (const datasets::Outline& outline : test.outlines) {
     mpm::Outline copy{outline.time, {}};
+    const datasets::OutlinePoint& first = outline.points.front();
+    if (first.z > 0.0) copy.points.push_back({first.r, 0.0});  // read from above the base: as wide down to it
     for (const datasets::OutlinePoint& point : outline.points) copy.points.push_back({point.r, point.z});
     sum += copy.volume() / fill - 1.0;
   }

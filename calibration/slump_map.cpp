@@ -10,7 +10,7 @@ namespace isotach::calibration {
 
 namespace {
 
-constexpr double kBoxHalfWidth = 4.0;       // of the first box, in standard errors
+constexpr double kBoxHalfWidth = 5.0;       // of the first box, in standard errors
 constexpr double kLeastBoxHalfWidth = 0.1;  // of a logarithm; of other coordinates a share of their range
 constexpr double kMostOfRange = 0.5;        // the first box is no wider than so much of the range
 constexpr std::size_t kPointsPerCoordinate = 10;

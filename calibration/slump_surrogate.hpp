@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/gaussian_process.hpp"
-#include "calibration/problem.hpp"
+#include "calibration/optimisers.hpp"
 
 namespace isotach::calibration {
 
