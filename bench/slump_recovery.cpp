@@ -157,8 +157,29 @@ struct Score {
   double misfit = 0.0;                ///< sum of rms of residuals
 };
 
+Tests chosen(const Tests& tests, const std::vector<std::size_t>& used) {
+  Tests some;
+  for (const std::size_t t : used) some.push_back(tests[t]);
+  return some;
+}
+
+/// The runs of some of the tests.
+calibration::SimulationError chosen(const calibration::SimulationError& error,
+                                    const std::vector<std::size_t>& used) {
+  calibration::SimulationError some = error;
+  const auto pick = [&used](auto& runs) {
+    const auto all = runs;
+    runs.clear();
+    for (const std::size_t t : used) runs.push_back(all[t]);
+  };
+  pick(some.runs);
+  for (calibration::NumericalVariant& variant : some.variants) pick(variant.runs);
+  return some;
+}
+
 void one_study(const Problem& fitter, const Problem& generator, const Tests& tests,
-               const std::vector<std::size_t>& used, std::mt19937_64& random, Score& score) {
+               const std::vector<std::size_t>& used, const calibration::SimulationError& error,
+               std::mt19937_64& random, Score& score) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const std::vector<double> truth{std::log(0.03 * (0.75 + 0.5 * unit(random))), 0.03 + 0.1 * unit(random)};
   const auto true_parameters = generator.parametrisation().at(truth);
@@ -178,14 +199,19 @@ void one_study(const Problem& fitter, const Problem& generator, const Tests& tes
       calibration::estimate_uncertainty(problem, found.coordinates, calibration::Correlation::independent);
   const auto at_truth =
       calibration::estimate_uncertainty(problem, truth, calibration::Correlation::independent);
-  if (!uncertainty || !at_truth) throw std::runtime_error("a study has no covariance");
+  const auto at = problem.linearise(found.coordinates);
+  if (!uncertainty || !at_truth || !at) throw std::runtime_error("a study has no covariance");
+  const Eigen::MatrixXd numerics = calibration::numerical_covariance(
+      calibration::numerical_shifts(*at, chosen(tests, used), chosen(error, used)), 2);
   const double threshold = std::pow(uncertainty->quantile() * uncertainty->inflation, 2.0);
   ++score.studies;
   score.misfit += std::sqrt(2.0 * found.cost / static_cast<double>(problem.value_count()));
   for (std::size_t k = 0; k < 2; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    const double error = std::sqrt(uncertainty->covariance(i, i));
-    const auto profile = calibration::profile(problem, found.coordinates, k, error, threshold, {});
+    const double own_error = std::sqrt(uncertainty->covariance(i, i));
+    const double widening = 1.0 + numerics(i, i) / (own_error * own_error);
+    const auto profile =
+        calibration::profile(problem, found.coordinates, k, own_error, threshold * widening, {});
     const auto& coordinate = problem.parametrisation().coordinates()[k];
     const double range =
         calibration::range_of(*coordinate.id, *problem.parametrisation().at(found.coordinates));
@@ -262,8 +288,8 @@ int main(int argc, char** argv) {
   Score all;
   Score one;
   for (long s = 0; s < studies; ++s) {
-    one_study(fitter, generator, tests, {0, 1, 2, 3, 4}, random, all);
-    one_study(fitter, generator, tests, {1}, random, one);
+    one_study(fitter, generator, tests, {0, 1, 2, 3, 4}, *error, random, all);
+    one_study(fitter, generator, tests, {1}, *error, random, one);
   }
   print_row("five tests", all);
   print_row(tests[1]->name().c_str(), one);

@@ -59,7 +59,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
       without(slump_list, [&](ParameterId id) { return contains(oedometer_list, id); });
 
   // expected work in evaluations of the slump tests; the real number decides itself
-  constexpr double kExpected = 65.0;
+  constexpr double kExpected = 120.0;
   double done = 0.0;
   const auto report = [&](double evaluations, const std::string& what) {
     if (options.progress) options.progress(std::min(0.97, (done + evaluations) / kExpected), what);
@@ -142,6 +142,23 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   auto slump = assess_slump(study, *found, last_list, slump_options);
   if (!slump) return tl::unexpected(slump.error());
   calibration.slump = std::move(*slump);
+  JointFitOptions joint_options;
+  joint_options.threads = options.threads;
+  joint_options.seed = study.fit.seed;
+  joint_options.control.stop = options.stop;
+  joint_options.simulate = options.simulate;
+  joint_options.control.callback = [&](int simulations, double) {
+    report(simulations / static_cast<double>(study.slump_tests.size()),
+           fmt::format("joint fit, {} simulations", simulations));
+  };
+  auto joint = fit_jointly(study, calibration.first_oedometer, calibration.slump_alone, joint_options);
+  if (joint) {
+    calibration.joint = std::move(*joint);
+  } else if (joint.error().interrupted) {
+    return tl::unexpected(joint.error());
+  } else {
+    calibration.joint_failure = joint.error().message;
+  }
   if (options.progress) options.progress(1.0, "done");
   return calibration;
 }

@@ -6,6 +6,7 @@
 
 #include "calibration/fit_oedometer.hpp"
 #include "calibration/fit_slump.hpp"
+#include "calibration/joint_fit.hpp"
 
 namespace isotach::calibration {
 
@@ -16,10 +17,12 @@ struct CalibrationRound {
 };
 
 struct Calibration {
-  OedometerFit first_oedometer;  ///< with what the study lets it move, before any slump was seen
-  SlumpFit slump_alone;          ///< the first slump fit, of everything the study lets the slump move
-  OedometerFit oedometer;        ///< the last: at the slump's I_v
-  SlumpFit slump;                ///< the last, of what the oedometer does not move
+  OedometerFit first_oedometer;   ///< with what the study lets it move, before any slump was seen
+  SlumpFit slump_alone;           ///< the first slump fit, of everything the study lets the slump move
+  OedometerFit oedometer;         ///< the last: at the slump's I_v
+  SlumpFit slump;                 ///< the last, of what the oedometer does not move
+  std::optional<JointFit> joint;  ///< both kinds of test at once
+  std::string joint_failure;      ///< why there is none
   std::vector<CalibrationRound> rounds;
   bool settled = false;  ///< the last round moved nothing that matters
 };

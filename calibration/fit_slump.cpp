@@ -19,18 +19,6 @@ namespace {
 
 using SlumpExperiments = std::vector<std::shared_ptr<const experiments::SlumpExperiment>>;
 
-experiments::Simulate plain_simulation(const std::atomic<bool>* stop) {
-  return [stop](const std::string&, const model::Parameters<double>& parameters,
-                const mpm::SlumpSetup& setup) -> tl::expected<mpm::SlumpResult, mpm::RunFailure> {
-    mpm::RunOptions options;
-    options.stop = stop;
-    options.history = false;
-    auto result = mpm::run_slump(parameters, setup, options);
-    if (result) return std::move(*result);
-    return tl::unexpected(mpm::RunFailure{mpm::status_of(result.error()), std::move(result.error().message)});
-  };
-}
-
 /// Counts how simulations end.
 class RunTally {
  public:
@@ -155,6 +143,18 @@ Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
 
 }  // namespace
 
+experiments::Simulate plain_simulation(const std::atomic<bool>* stop) {
+  return [stop](const std::string&, const model::Parameters<double>& parameters,
+                const mpm::SlumpSetup& setup) -> tl::expected<mpm::SlumpResult, mpm::RunFailure> {
+    mpm::RunOptions options;
+    options.stop = stop;
+    options.history = false;
+    auto result = mpm::run_slump(parameters, setup, options);
+    if (result) return std::move(*result);
+    return tl::unexpected(mpm::RunFailure{mpm::status_of(result.error()), std::move(result.error().message)});
+  };
+}
+
 tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
                                                    const model::Parameters<double>& start,
                                                    const std::vector<model::ParameterId>& wanted,
@@ -213,6 +213,43 @@ void heed_map(const Problem& problem, const SlumpMap& map, std::vector<double>& 
   result.parameters = *problem.parametrisation().at(answer);
 }
 
+/// Adds to the covariance what the choice of cells and points makes of the answer. Returns by how much each
+/// coordinate's variance grew.
+std::vector<double> add_numerics(const Problem& problem, const std::vector<double>& answer,
+                                 const SlumpExperiments& all, SlumpFit& fit) {
+  Eigen::MatrixXd& covariance = fit.result.uncertainty.covariance;
+  std::vector<double> widening(answer.size(), 1.0);
+  const auto at = problem.linearise(answer);
+  if (!at) return widening;
+  SlumpExperiments fitted;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(fitted),
+               [](const auto& test) { return !test->held_out(); });
+  // the problem has its tests by length
+  SlumpExperiments in_order;
+  SimulationError error = fit.simulation_error;
+  std::vector<std::size_t> places;
+  for (const auto& test : problem.fitted()) {
+    const auto same = std::find_if(fitted.begin(), fitted.end(),
+                                   [&](const auto& other) { return other->name() == test->name(); });
+    places.push_back(static_cast<std::size_t>(same - fitted.begin()));
+    in_order.push_back(*same);
+  }
+  const auto reorder = [&places](auto& runs) {
+    const auto before = runs;
+    for (std::size_t i = 0; i < places.size(); ++i) runs[i] = before[places[i]];
+  };
+  reorder(error.runs);
+  for (NumericalVariant& variant : error.variants) reorder(variant.runs);
+  fit.shifts = numerical_shifts(*at, in_order, error);
+  const Eigen::MatrixXd numerics = numerical_covariance(fit.shifts, covariance.rows());
+  for (std::size_t k = 0; k < widening.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (covariance(i, i) > 0.0) widening[k] = 1.0 + numerics(i, i) / covariance(i, i);
+  }
+  covariance += numerics;
+  return widening;
+}
+
 /// Intervals and verdicts as the profiles have them.
 void heed_profiles(const Problem& problem, const SlumpMap& map, FitResult& result) {
   for (const Profile& profile : map.profiles) {
@@ -258,10 +295,11 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
         failed, failed == 1 ? "" : "s"));
   }
   result.uncertainty = std::move(*uncertainty);
+  const std::vector<double> widening = add_numerics(problem, answer, all, fit);
   if (options.map) {
     tell(options, "map and profiles");
-    auto map =
-        map_slump(problem, answer, result.uncertainty, {options.threads, options.seed, options.control});
+    auto map = map_slump(problem, answer, result.uncertainty,
+                         {widening, options.threads, options.seed, options.control});
     if (!map) {
       if (map.error().interrupted) return tl::unexpected(map.error());
       result.warnings.push_back("no map, no profiles: " + map.error().message);
@@ -269,9 +307,10 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
       heed_map(problem, *map, answer, result);
       fit.map = std::move(*map);
       // differences of a surrogate carry none of the scatter of simulations
-      if (auto smooth = estimate_uncertainty(with_surrogate(problem, fit.map->surrogate), answer,
-                                             Correlation::independent)) {
+      const Problem on_surrogate = with_surrogate(problem, fit.map->surrogate);
+      if (auto smooth = estimate_uncertainty(on_surrogate, answer, Correlation::independent)) {
         result.uncertainty = std::move(*smooth);
+        static_cast<void>(add_numerics(on_surrogate, answer, all, fit));
       }
     }
   }

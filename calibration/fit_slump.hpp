@@ -26,7 +26,8 @@ struct SlumpFit {
   double rms_mould_gone = 0.0;               ///< m, over all tests, held-out ones included
   mpm::RunCounts runs;                       ///< simulations by how they ended, those of the search included
   SimulationError simulation_error;
-  std::optional<SlumpMap> map;  ///< where it was asked for
+  std::vector<NumericalShift> shifts;  ///< of the answer by other numerics
+  std::optional<SlumpMap> map;         ///< where it was asked for
 };
 
 struct SlumpFitOptions {
@@ -43,6 +44,9 @@ struct SlumpFitOptions {
   /// Called with what is being done, besides what control.callback hears of the search.
   std::function<void(const std::string&)> stage;
 };
+
+/// mpm::run_slump, without history, until `stop`.
+[[nodiscard]] experiments::Simulate plain_simulation(const std::atomic<bool>* stop);
 
 /// What a search found, before its uncertainty and the comparison with all tests are worked out.
 struct SlumpSearch {

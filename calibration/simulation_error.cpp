@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -158,17 +159,56 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
       differences.add(*base, *other, tests[t]->setup, outline, lifting);
       any = true;
     }
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      auto& run = runs[variant * tests.size() + t];
+      found.runs.push_back(run ? std::optional(std::move(*run)) : std::nullopt);
+    }
     found.outline = outline.rms();
     found.lifting = lifting.rms();
     result.variants.push_back(std::move(found));
   }
-  for (std::size_t t = 0; t < tests.size(); ++t) result.failed += runs[bases + t] ? 0U : 1U;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    auto& run = runs[bases + t];
+    result.failed += run ? 0U : 1U;
+    result.runs.push_back(run ? std::optional(std::move(*run)) : std::nullopt);
+  }
   if (!any) {
     return tl::unexpected(FitFailure{
         "the error of the simulations cannot be measured at the start values: " + last_failure, false});
   }
   result.error = differences.error();
   return result;
+}
+
+std::vector<NumericalShift> numerical_shifts(
+    const Linearised& at, const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
+    const SimulationError& error) {
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(at.jacobian);
+  std::vector<NumericalShift> shifts;
+  for (const NumericalVariant& variant : error.variants) {
+    Eigen::VectorXd difference = Eigen::VectorXd::Zero(at.jacobian.rows());  // priors below stay zero
+    Eigen::Index row = 0;
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      const auto count = static_cast<Eigen::Index>(tests[t]->measured().size());
+      if (variant.runs[t] && error.runs[t]) {
+        const experiments::Values other = tests[t]->decorrelated(tests[t]->distances(*variant.runs[t]));
+        const experiments::Values base = tests[t]->decorrelated(tests[t]->distances(*error.runs[t]));
+        for (Eigen::Index i = 0; i < count; ++i) {
+          const auto k = static_cast<std::size_t>(i);
+          difference[row + i] = other[k] - base[k];
+        }
+      }
+      row += count;
+    }
+    shifts.push_back({variant.name, -solver.solve(difference)});
+  }
+  return shifts;
+}
+
+Eigen::MatrixXd numerical_covariance(const std::vector<NumericalShift>& shifts, Eigen::Index coordinates) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(coordinates, coordinates);
+  for (const NumericalShift& shift : shifts) covariance += shift.shift * shift.shift.transpose();
+  return covariance;
 }
 
 }  // namespace isotach::calibration

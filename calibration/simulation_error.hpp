@@ -2,11 +2,14 @@
 // How far a simulated outline can be trusted: the same tests with other cells and points.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
 #include "calibration/fit_result.hpp"
+#include "calibration/problem.hpp"
 #include "datasets/study.hpp"
 #include "experiments/slump_experiment.hpp"
 
@@ -18,12 +21,14 @@ struct NumericalVariant {
   double outline = 0.0;    ///< root mean square distance (m) of its outlines, once the rim has left the mud
   double lifting = 0.0;    ///< and before; NaN if there is no such outline
   std::size_t failed = 0;  ///< simulations without a result
+  std::vector<std::optional<mpm::SlumpResult>> runs;  ///< of the fitted tests, in their order
 };
 
 struct SimulationError {
   experiments::SharedError error;  ///< what goes into the covariance
   std::vector<NumericalVariant> variants;
   std::size_t failed = 0;  ///< simulations of the study's own numerics without a result
+  std::vector<std::optional<mpm::SlumpResult>> runs;  ///< with the study's own numerics, likewise
 };
 
 /// Compares outlines of the tests that are fitted with those of one and two cells more across the radius and
@@ -34,5 +39,22 @@ struct SimulationError {
 [[nodiscard]] tl::expected<SimulationError, FitFailure> measure_simulation_error(
     const datasets::Study& study, const model::Parameters<double>& parameters,
     const experiments::Simulate& simulate, int threads);
+
+/// How far each variant moves the answer of a fit: by what its outlines differ, common to all tests.
+struct NumericalShift {
+  std::string variant;
+  Eigen::VectorXd shift;  ///< of the coordinates
+};
+
+/// The shifts by the linearised problem; its fitted experiments are `tests`, or stand in for them. A test
+/// that a variant could not simulate does not shift anything.
+[[nodiscard]] std::vector<NumericalShift> numerical_shifts(
+    const Linearised& at, const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
+    const SimulationError& error);
+
+/// The sum of the shifts' outer products: what the choice of cells and points adds to the covariance of the
+/// coordinates. Other than the errors in the covariance of outlines it does not shrink with more tests.
+[[nodiscard]] Eigen::MatrixXd numerical_covariance(const std::vector<NumericalShift>& shifts,
+                                                   Eigen::Index coordinates);
 
 }  // namespace isotach::calibration

@@ -150,7 +150,8 @@ tl::expected<SlumpMap, FitFailure> map_slump(const Problem& problem, const std::
       const auto i = static_cast<Eigen::Index>(k);
       const double error = uncertainty.in_null_direction(k) ? std::numeric_limits<double>::infinity()
                                                             : std::sqrt(uncertainty.covariance(i, i));
-      map.profiles.push_back(profile(on_surrogate, map.best, k, error, threshold, quiet));
+      const double widening = options.widening.empty() ? 1.0 : options.widening[k];
+      map.profiles.push_back(profile(on_surrogate, map.best, k, error, threshold * widening, quiet));
     }
     if (quiet.stopped()) return tl::unexpected(FitFailure{"interrupted", true});
     map.enlarged = round;

@@ -116,7 +116,7 @@ void add_points(const Problem& problem, const CoordinateBox& box, std::size_t co
 }
 
 std::size_t SlumpSurrogate::least_points(std::size_t coordinates) {
-  return (coordinates + 1) * (coordinates + 2);
+  return 3 * (coordinates + 1);
 }
 
 SlumpSurrogate::SlumpSurrogate(const Problem& problem, const CoordinateBox& box, const TrainingSet& set)

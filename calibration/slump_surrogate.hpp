@@ -39,7 +39,7 @@ class SlumpSurrogate {
   /// (least_points()).
   SlumpSurrogate(const Problem& problem, const CoordinateBox& box, const TrainingSet& set);
 
-  /// The least number of points for a quadratic trend and something left to judge it by.
+  /// The least number of points: three times the terms of a linear trend.
   [[nodiscard]] static std::size_t least_points(std::size_t coordinates);
 
   [[nodiscard]] const CoordinateBox& box() const { return box_; }

@@ -92,6 +92,55 @@ void add_consistency(Page& page, const Calibration& calibration) {
       format_number(calibration.oedometer.reference_rate, 2)));
 }
 
+/// One objective for both kinds of test, and what that costs each.
+void add_joint_fit(Page& page, const Calibration& calibration) {
+  if (!calibration.joint) {
+    if (!calibration.joint_failure.empty()) {
+      page.box(Tone::warning, "There is no joint fit: " + calibration.joint_failure);
+    }
+    return;
+  }
+  using enum Alignment;
+  const calibration::JointFit& joint = *calibration.joint;
+  page.heading("Both kinds of test at once");
+  page.paragraph(
+      fmt::format("One objective of all fitted tests, the oedometer's by its integrator, the slumps' by a "
+                  "surrogate over all that "
+                  "moves: {} points simulated{}, points left out missed by {} times the noise.",
+                  joint.points, joint.failed > 0 ? fmt::format(", {} in vain", joint.failed) : std::string(),
+                  format_number(joint.surrogate->error(), 2)));
+  Table table{.caption = "Parameters by each kind of test and by both.",
+              .header = {"Parameter", "Oedometer alone", "Slump alone", "Both"},
+              .alignment = {left, right, right, right}};
+  const auto text = [](const calibration::FitResult& result, ParameterId id) {
+    if (!is_free(result, id)) return std::string(kMissing);
+    const ParameterEstimate estimate = in_key_unit(estimate_of(result, id));
+    return format_with_error(estimate.value, estimate.std_error);
+  };
+  for (const ParameterId id : joint.result.free) {
+    table.rows.push_back({std::string(model::info(id).name), text(calibration.first_oedometer.result, id),
+                          text(calibration.slump_alone.result, id), text(joint.result, id)});
+  }
+  table.notes = {
+      fmt::format("Half the sum of squares: oedometer {} alone and {} with the slumps; slumps {} alone and "
+                  "{} with the oedometer.",
+                  format_number(joint.oedometer_least, 4), format_number(joint.oedometer_cost, 4),
+                  format_number(joint.slump_least, 4), format_number(joint.slump_cost, 4))};
+  page.table(std::move(table));
+  constexpr double kContradiction = 0.01;
+  const bool agree = joint.p_value >= kContradiction;
+  page.box(
+      agree ? Tone::good : Tone::warning,
+      fmt::format(
+          "Meeting both kinds of test at once raises the misfit by {} where chance allows some {} (p = {}): "
+          "{}",
+          format_number(joint.rise, 3), joint.shared, format_number(joint.p_value, 2),
+          agree ? "one set of parameters serves both."
+                : "no one set of parameters serves both. One of the two lacks something: in the model, in "
+                  "the boundaries, or in how it was measured."));
+  add_warnings(page, joint.result.warnings);
+}
+
 }  // namespace
 
 Page calibration_report(const RunInfo& run, const datasets::Study& study, const Calibration& calibration) {
@@ -123,6 +172,7 @@ Page calibration_report(const RunInfo& run, const datasets::Study& study, const 
                              "What the slump tests alone say, from the first slump fit.",
                              Meanings::left_out));
   add_slump_map(page, calibration.slump_alone);
+  add_joint_fit(page, calibration);
   page.paragraph(
       "A parameter that the oedometer moves too, other than I_v, is the oedometer's in the later rounds: in "
       "undrained "

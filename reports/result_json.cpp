@@ -84,6 +84,16 @@ ordered_json result_json(const RunInfo& run, const datasets::Study& study,
   json["first_oedometer_parameters"] = parameters_json(calibration.first_oedometer.result.estimates);
   json["fit_oedometer"] = oedometer_fit_json(study, calibration.oedometer);
   json["fit_slump"] = slump_fit_json(study, calibration.slump);
+  if (calibration.joint) {
+    const calibration::JointFit& joint = *calibration.joint;
+    json["joint"] = {{"parameters", parameters_json(joint.result.estimates)},
+                     {"oedometer_cost", json_number(joint.oedometer_cost)},
+                     {"oedometer_cost_alone", json_number(joint.oedometer_least)},
+                     {"slump_cost", json_number(joint.slump_cost)},
+                     {"slump_cost_alone", json_number(joint.slump_least)},
+                     {"rise", json_number(joint.rise)},
+                     {"p_value", json_number(joint.p_value)}};
+  }
   return json;
 }
 

@@ -110,6 +110,8 @@ TEST(CalibrationReport, HoldsTheChainAndBothFits) {
                {"Oedometer: Compression curves", "Oedometer: Robustness", "Oedometer: Data and assumptions"});
   // one answer: one table of parameters with their verdicts
   EXPECT_EQ(count(html, ">gauge</td>"), 1U);
+  ASSERT_TRUE(small_calibration().joint.has_value()) << small_calibration().joint_failure;
+  expect_parts(html, {"Both kinds of test at once", "Parameters by each kind of test and by both"});
 }
 
 TEST(CalibrationReport, ComparesIvOfBothKindsOfTest) {
