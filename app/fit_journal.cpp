@@ -54,8 +54,7 @@ FitJournal::FitJournal(const JournalLine& line, const CommonOptions& options, co
     }
   }
   journal::RunnerOptions runner_options;
-  runner_options.time_limit = line.time_limit;
-  runner_options.stop = &interrupted();
+  runner_options.limits = {line.time_limit, &interrupted()};
   runner_.emplace(journal_ ? &*journal_ : nullptr, runner_options);
 }
 

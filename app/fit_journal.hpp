@@ -18,7 +18,7 @@ namespace isotach::app {
 struct JournalLine {
   std::filesystem::path file;  ///< where empty, beside the results
   bool none = false;
-  double time_limit = journal::RunnerOptions{}.time_limit;  ///< s a simulation
+  double time_limit = journal::RunLimits{}.time;  ///< s a simulation
 };
 
 /// Adds --journal, --no-journal and --time-limit.

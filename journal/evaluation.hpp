@@ -2,12 +2,11 @@
 // One slump simulation as the journal keeps it, and the key it is found under.
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include "journal/simulation.hpp"
 #include "model/parameters.hpp"
-#include "mpm/run_status.hpp"
-#include "mpm/slump.hpp"
+#include "mpm/slump_setup.hpp"
 
 namespace isotach::journal {
 
@@ -24,16 +23,12 @@ struct Inputs {
   Inputs() = default;
 };
 
-/// One row.
-struct Evaluation {
+/// One row: a simulation and what it was of.
+struct Evaluation : Simulation {
   Inputs inputs;
-  std::string test;  ///< its name in the study; no part of the key
-  mpm::RunStatus status = mpm::RunStatus::ok;
-  std::string message;                     ///< why it failed, without the test's name; empty where it did not
-  double seconds = 0.0;                    ///< wall time of the simulation
-  double time_limit = 0.0;                 ///< s of wall time that it was given
-  std::string created;                     ///< UTC, "2026-01-31T12:00:00Z"; Journal::put sets it
-  std::optional<mpm::SlumpResult> result;  ///< without snapshots, fields and frames; none where it failed
+  std::string test;          ///< its name in the study; no part of the key
+  double time_limit = 0.0;   ///< s of wall time that it was given
+  std::string created = {};  ///< UTC, "2026-01-31T12:00:00Z"; Journal::put sets it
 };
 
 }  // namespace isotach::journal

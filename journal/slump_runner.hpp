@@ -8,12 +8,13 @@
 #include <tl/expected.hpp>
 
 #include "journal/journal.hpp"
+#include "journal/simulation.hpp"
 
 namespace isotach::journal {
 
 struct RunnerOptions {
-  double time_limit = 3600.0;               ///< s of wall time for each simulation, > 0
-  const std::atomic<bool>* stop = nullptr;  ///< once true, simulations end as interrupted
+  RunLimits limits = {};       ///< of each simulation
+  Execute execute = simulate;  ///< runs what the journal does not hold
 };
 
 /// Runs simulations from any thread. What a run returns is the same whether the journal held it or not, and
@@ -26,7 +27,7 @@ struct RunnerOptions {
 class SlumpRunner {
  public:
   /// `journal` may be null: nothing is looked up or kept.
-  explicit SlumpRunner(Journal* journal, const RunnerOptions& options = {});
+  explicit SlumpRunner(Journal* journal, RunnerOptions options = {});
 
   [[nodiscard]] tl::expected<mpm::SlumpResult, mpm::RunFailure> run(
       const std::string& test, const model::Parameters<double>& parameters, const mpm::SlumpSetup& setup);
@@ -40,8 +41,6 @@ class SlumpRunner {
 
  private:
   [[nodiscard]] std::optional<Evaluation> look_up(const std::string& key);
-  [[nodiscard]] Evaluation simulate(const model::Parameters<double>& parameters,
-                                    const mpm::SlumpSetup& setup) const;
   void keep(const Evaluation& evaluation);
   void give_up(const JournalError& error);
 

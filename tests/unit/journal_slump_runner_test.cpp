@@ -61,7 +61,7 @@ TEST_F(SlumpRunnerTest, ATimeOutIsKeptAndTriedAgainOnlyWithMoreTime) {
   mpm::SlumpSetup setup = small_setup();
   setup.numerics.cell_size = 0.004;  // some thousand steps: time is looked at every 256
   for (const int repeat : {1, 2}) {
-    SlumpRunner runner(&journal_, {1e-6, nullptr});
+    SlumpRunner runner(&journal_, {.limits = {1e-6, nullptr}});
     const auto result = runner.run("a", tests::seed_mud(), setup);
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().status, RunStatus::timed_out);
@@ -72,7 +72,7 @@ TEST_F(SlumpRunnerTest, ATimeOutIsKeptAndTriedAgainOnlyWithMoreTime) {
   ASSERT_TRUE(row.has_value());
   EXPECT_EQ(row->status, RunStatus::timed_out);
   EXPECT_EQ(row->time_limit, 1e-6);
-  SlumpRunner patient(&journal_, {600.0, nullptr});
+  SlumpRunner patient(&journal_, {.limits = {600.0, nullptr}});
   EXPECT_TRUE(patient.run("a", tests::seed_mud(), setup).has_value());
   EXPECT_EQ(patient.simulated(), 1);
   EXPECT_NE(journal_.get(key_of(setup))->status, RunStatus::timed_out);
@@ -108,7 +108,7 @@ TEST_F(SlumpRunnerTest, AnInterruptedRunIsNotKept) {
   const std::atomic<bool> stop{true};
   mpm::SlumpSetup setup = small_setup();
   setup.numerics.cell_size = 0.004;
-  SlumpRunner runner(&journal_, {600.0, &stop});
+  SlumpRunner runner(&journal_, {.limits = {600.0, &stop}});
   const auto result = runner.run("a", tests::seed_mud(), setup);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().status, RunStatus::interrupted);
