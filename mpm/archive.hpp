@@ -54,6 +54,18 @@ class Archive {
       for (T& value : values) (*this)(value);
     }
   }
+  void operator()(std::string& text) {
+    std::uint64_t size = text.size();
+    (*this)(size);
+    if (loading_) {
+      if (short_ || size > from_.size()) {
+        short_ = true;
+        return;
+      }
+      text.resize(size);
+    }
+    (*this)(text.data(), text.size());
+  }
   /// Values whose number is known.
   template <class T>
   void operator()(T* values, std::size_t count) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <type_traits>
 
 #include "mpm/slump_setup.hpp"
 
@@ -11,14 +11,15 @@ namespace isotach::mpm {
 
 /// Calls visit(name, value) for each field of the setup but the number of threads, in an order that stays.
 /// Names carry SI units. Values are double, int, bool, std::optional<double>, std::vector<double> and
-/// std::vector<RimPlace>. The bindings name every member, so that a new one does not compile until it is
-/// listed here.
-template <class Visitor>
-void visit_fields(const SlumpSetup& setup, Visitor&& visit) {
-  const auto& [mould, mud, base, numerics, times] = setup;
+/// std::vector<RimPlace>; of a setup that is not const they may be set. The bindings name every member, so
+/// that a new one does not compile until it is listed here.
+template <class Setup, class Visitor>
+requires std::is_same_v<std::remove_const_t<Setup>, SlumpSetup>
+void visit_fields(Setup& setup, Visitor&& visit) {
+  auto& [mould, mud, base, numerics, times] = setup;
   {
-    const auto& [diameter, fill_height, lift_speed, wall, lift_delay, lift_table] = mould;
-    const auto& [adhesion, friction] = wall;
+    auto& [diameter, fill_height, lift_speed, wall, lift_delay, lift_table] = mould;
+    auto& [adhesion, friction] = wall;
     visit("mould_diameter_m", diameter);
     visit("mould_fill_height_m", fill_height);
     visit("mould_lift_speed_m_per_s", lift_speed);
@@ -28,7 +29,7 @@ void visit_fields(const SlumpSetup& setup, Visitor&& visit) {
     visit("mould_lift_table_s_m", lift_table);
   }
   {
-    const auto& [void_ratio, undrained_strength, strength_rate, specific_gravity, ocr] = mud;
+    auto& [void_ratio, undrained_strength, strength_rate, specific_gravity, ocr] = mud;
     visit("mud_void_ratio", void_ratio);
     visit("mud_undrained_strength_Pa", undrained_strength);
     visit("mud_strength_rate_per_s", strength_rate);
@@ -36,15 +37,19 @@ void visit_fields(const SlumpSetup& setup, Visitor&& visit) {
     visit("mud_ocr", ocr);
   }
   {
-    const auto& [yielding, slab] = base;
-    const auto& [adhesion, friction, slip_length] = yielding;
+    auto& [yielding, slab] = base;
+    auto& [adhesion, friction, slip_length] = yielding;
     visit("base_adhesion_Pa", adhesion);
     visit("base_friction", friction);
     visit("base_slip_length_m", slip_length);
-    const bool elastic = slab.has_value();
+    bool elastic = slab.has_value();
     visit("base_elastic", elastic);
+    if constexpr (!std::is_const_v<Setup>) {
+      if (elastic != slab.has_value())
+        slab = elastic ? std::optional<ElasticSlab>(ElasticSlab{}) : std::nullopt;
+    }
     if (elastic) {
-      const auto& [thickness, length, youngs_modulus, poissons_ratio] = *slab;
+      auto& [thickness, length, youngs_modulus, poissons_ratio] = *slab;
       visit("base_thickness_m", thickness);
       visit("base_length_m", length);
       visit("base_youngs_modulus_Pa", youngs_modulus);
@@ -52,8 +57,8 @@ void visit_fields(const SlumpSetup& setup, Visitor&& visit) {
     }
   }
   {
-    const auto& [cell_size, points_per_cell, water_bulk_modulus, courant, tolerance, viscosity, threads,
-                 inertia_scaling] = numerics;
+    auto& [cell_size, points_per_cell, water_bulk_modulus, courant, tolerance, viscosity, threads,
+           inertia_scaling] = numerics;
     static_cast<void>(threads);
     visit("cell_size_m", cell_size);
     visit("points_per_cell", points_per_cell);
