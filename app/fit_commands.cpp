@@ -152,6 +152,7 @@ int calibrate(const CommonOptions& options, const JournalLine& journal_line) {
   calibration::CalibrateOptions calibrate_options;
   calibrate_options.simulate = journal.simulate();
   calibrate_options.threads = options.threads;
+  calibrate_options.slump_threads = options.threads;
   calibrate_options.stop = &interrupted();
   calibrate_options.progress = [&](double fraction, const std::string& what) {
     progress.update(fraction, what);

@@ -69,7 +69,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   oedometer_options.control.stop = options.stop;
   oedometer_options.depth = Depth::answer;
   SlumpFitOptions slump_options;
-  slump_options.threads = options.threads;
+  slump_options.threads = options.slump_threads;
   slump_options.control.stop = options.stop;
   slump_options.simulate = options.simulate;
 

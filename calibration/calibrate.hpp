@@ -28,7 +28,8 @@ struct Calibration {
 };
 
 struct CalibrateOptions {
-  int threads = 1;
+  int threads = 1;        ///< of the oedometer fits
+  int slump_threads = 1;  ///< of the slump fits: simulations asked for at once
   int max_rounds = 4;
   const std::atomic<bool>* stop = nullptr;
   experiments::Simulate simulate;  ///< of slump tests; where empty, mpm::run_slump until `stop`
