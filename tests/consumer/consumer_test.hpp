@@ -27,8 +27,15 @@ class ConsumerTest : public testing::Test {
     return folder_.write(name, content);
   }
 
-  [[nodiscard]] Process start(const std::vector<std::string>& arguments) const {
-    return {arguments, folder(), streams_.path() / "streams"};
+  /// Of the program, begun by `launcher` where there is one, with these arguments.
+  [[nodiscard]] Process start(const std::vector<std::string>& arguments,
+                              std::vector<std::string> launcher = {}) const {
+    launcher.emplace_back(ISOTACH_PROGRAM);
+    launcher.insert(launcher.end(), arguments.begin(), arguments.end());
+    return start_command(std::move(launcher));
+  }
+  [[nodiscard]] Process start_command(std::vector<std::string> command) const {
+    return {std::move(command), folder(), streams_.path() / "streams"};
   }
   [[nodiscard]] Ended run(const std::vector<std::string>& arguments) const { return start(arguments).wait(); }
 

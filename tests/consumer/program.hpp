@@ -1,5 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// The built program as a child process: started, signalled, waited for, its output read.
+// The built program, or one that starts it, as a child process: started, signalled, waited for, its output
+// read.
 #pragma once
 
 #include <sys/wait.h>
@@ -28,16 +29,15 @@ struct Ended {
   std::string err;
 };
 
-/// `isotach ARGUMENTS...`, started in `folder`. Its output goes to the files `streams`.out and .err.
+/// `COMMAND...`, a program and its arguments, started in `folder`. Its output goes to the files `streams`.out
+/// and .err.
 class Process {
  public:
-  Process(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+  Process(std::vector<std::string> command, const std::filesystem::path& folder,
           std::filesystem::path streams)
       : streams_(std::move(streams)) {
-    std::vector<std::string> all{ISOTACH_PROGRAM};
-    all.insert(all.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
-    for (std::string& argument : all) argv.push_back(argument.data());
+    for (std::string& word : command) argv.push_back(word.data());
     argv.push_back(nullptr);
     const std::string out = streams_.string() + ".out";
     const std::string err = streams_.string() + ".err";
@@ -59,6 +59,7 @@ class Process {
     }
   }
 
+  [[nodiscard]] pid_t id() const { return child_; }
   void signal(int number) const { kill(child_, number); }
 
   Ended wait() {
