@@ -16,6 +16,10 @@ class App;
 class Validator;
 }  // namespace CLI
 
+namespace isotach::cluster {
+class Ranks;
+}  // namespace isotach::cluster
+
 namespace isotach::app {
 
 enum ExitCode { kDone = 0, kBadInput = 2, kNumericsFailed = 3, kInterrupted = 130 };
@@ -27,6 +31,7 @@ struct CommonOptions {
   int threads = 1;
   bool quiet = false;
   double max_file_megabytes = 100.0;
+  const cluster::Ranks* ranks = nullptr;  ///< the processes that slump simulations of fits are shared with
 
   [[nodiscard]] datasets::ReadOptions read_options() const;
 };

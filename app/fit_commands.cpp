@@ -112,7 +112,7 @@ int fit_slump(const CommonOptions& options, const JournalLine& journal_line) {
   reports::Progress progress("fit-slump", options.quiet);
   calibration::SlumpFitOptions fit_options;
   fit_options.simulate = journal.simulate();
-  fit_options.threads = options.threads;
+  fit_options.threads = journal.at_once(options.threads);
   fit_options.control.stop = &interrupted();
   fit_options.seed = study.fit.seed;
   bool searching = true;  // after the search the callback hears of the map's simulations
@@ -152,7 +152,7 @@ int calibrate(const CommonOptions& options, const JournalLine& journal_line) {
   calibration::CalibrateOptions calibrate_options;
   calibrate_options.simulate = journal.simulate();
   calibrate_options.threads = options.threads;
-  calibrate_options.slump_threads = options.threads;
+  calibrate_options.slump_threads = journal.at_once(options.threads);
   calibrate_options.stop = &interrupted();
   calibrate_options.progress = [&](double fraction, const std::string& what) {
     progress.update(fraction, what);

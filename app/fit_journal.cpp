@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "app/interrupt.hpp"
+#include "cluster/ranks.hpp"
 #include "mpm/code_version.hpp"
 
 namespace isotach::app {
@@ -55,12 +56,21 @@ FitJournal::FitJournal(const JournalLine& line, const CommonOptions& options, co
   }
   journal::RunnerOptions runner_options;
   runner_options.limits = {line.time_limit, &interrupted()};
+  if (options.ranks->size() > 1) {
+    pool_.emplace(*options.ranks);
+    runner_options.execute = [pool = &*pool_](const auto&... run) { return pool->run(run...); };
+    if (!options.quiet) fmt::print(stderr, "simulations: one on each of {} processes\n", pool_->size());
+  }
   runner_.emplace(journal_ ? &*journal_ : nullptr, runner_options);
 }
 
 experiments::Simulate FitJournal::simulate() {
   return [runner = &*runner_](const std::string& test, const model::Parameters<double>& parameters,
                               const mpm::SlumpSetup& setup) { return runner->run(test, parameters, setup); };
+}
+
+int FitJournal::at_once(int threads) const {
+  return pool_ ? pool_->size() : threads;
 }
 
 void FitJournal::tell_rest(bool quiet) const {

@@ -1,5 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// The journal of a command that fits slump tests: its options, and simulations that go by way of it.
+// The journal of a command that fits slump tests: its options, and simulations that go by way of it, here or
+// on other processes.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "app/command.hpp"
+#include "cluster/simulation_pool.hpp"
 #include "datasets/study.hpp"
 #include "experiments/slump_experiment.hpp"
 #include "journal/slump_runner.hpp"
@@ -33,6 +35,8 @@ class FitJournal {
 
   /// For fits; this object must outlive them.
   [[nodiscard]] experiments::Simulate simulate();
+  /// Simulations to ask for at once: `threads`, or one a process where several were started together.
+  [[nodiscard]] int at_once(int threads) const;
 
   /// After an interrupt: says on stderr, unless quiet, that the fit can go on.
   void tell_rest(bool quiet) const;
@@ -41,6 +45,7 @@ class FitJournal {
 
  private:
   std::optional<journal::Journal> journal_;
+  std::optional<cluster::SimulationPool> pool_;
   std::optional<journal::SlumpRunner> runner_;
 };
 

@@ -13,6 +13,9 @@
 
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
+#include "cluster/ranks.hpp"
+#include "cluster/serve.hpp"
+#include "mpm/code_version.hpp"
 
 namespace {
 
@@ -39,7 +42,8 @@ constexpr Command kCommands[] = {
 void add_common_options(CLI::App& line, CommonOptions& common) {
   line.add_option("--out", common.out, "folder for the results, created with its parents")
       ->capture_default_str();
-  line.add_option("--threads", common.threads, "simulations run at once")
+  line.add_option("--threads", common.threads,
+                  "simulations run at once (those of fits under mpirun: one a process)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   line.add_flag("--quiet", common.quiet, "no progress, no message but errors");
@@ -54,9 +58,8 @@ const char* unknown_command(int argc, char** argv) {
   return known ? nullptr : argv[1];
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// The command that the line asks for; its exit code.
+int run_line(int argc, char** argv, const isotach::cluster::Ranks& ranks) {
   if (const char* name = unknown_command(argc, argv)) {
     std::vector<std::string_view> names;
     for (const Command& command : kCommands) names.emplace_back(command.name);
@@ -67,6 +70,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", ISOTACH_VERSION);
   app.require_subcommand(1);
   CommonOptions common;
+  common.ranks = &ranks;
   common.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::vector<Runner> runners;
   for (const Command& command : kCommands) {
@@ -79,9 +83,25 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? isotach::app::kDone : isotach::app::kBadInput;
   }
-  isotach::app::watch_interrupts();
   for (std::size_t i = 0; i < runners.size(); ++i) {
     if (app.got_subcommand(kCommands[i].name)) return isotach::app::guarded(runners[i]);
   }
   return isotach::app::kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace isotach;
+  try {
+    const cluster::Ranks ranks(mpm::code_version());
+    app::watch_interrupts();
+    if (ranks.rank() > 0) return cluster::serve(ranks, app::interrupted());
+    const int code = run_line(argc, argv, ranks);
+    cluster::let_leave(ranks, code);
+    return code;
+  } catch (const cluster::LaunchError& error) {
+    if (error.rank() == 0) fmt::print(stderr, "isotach: {}\n", error.what());
+    return app::kBadInput;
+  }
 }
