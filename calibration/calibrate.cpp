@@ -143,7 +143,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   if (!slump) return tl::unexpected(slump.error());
   calibration.slump = std::move(*slump);
   JointFitOptions joint_options;
-  joint_options.threads = options.threads;
+  joint_options.threads = options.slump_threads;
   joint_options.seed = study.fit.seed;
   joint_options.control.stop = options.stop;
   joint_options.simulate = options.simulate;
