@@ -160,7 +160,9 @@ void add_slump_map(Page& page, const SlumpFit& fit) {
       "components "
       "of all distances stand in for the simulations: points left out are missed by {} times the noise{}.",
       map.points, map.failed > 0 ? fmt::format(", {} of them in vain", map.failed) : std::string(),
-      map.enlarged > 0 ? fmt::format(", in a region that was widened {} times", map.enlarged) : std::string(),
+      map.enlarged > 0 ? fmt::format(", in a region that was widened {}",
+                                     map.enlarged == 1 ? "once" : fmt::format("{} times", map.enlarged))
+                       : std::string(),
       map.surrogate->components(), format_number(map.surrogate->error(), 2),
       map.surrogate->error() < 0.5 ? "" : ", which is much: intervals are rough"));
   std::vector<Figure> figures;
