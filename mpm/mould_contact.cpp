@@ -13,6 +13,10 @@ namespace {
 // Part of the slip velocity that the wall takes away in a step: below 1 for stability with neighbours that
 // share nodes, and gone within a few steps.
 constexpr double kStick = 0.25;
+// Part of a point's size that mud inside is pressed into the wall at most: ten times what the pressure of a
+// fill does. A point that is deeper, up to twice as deep, has come from elsewhere, round the rim, and to
+// answer with the wall's stiffness would shoot it through the mud.
+constexpr double kFirm = 0.125;
 
 }  // namespace
 
@@ -40,16 +44,29 @@ void MouldContact::add(const ForceBlock& block) const {
   }
 }
 
+double MouldContact::outer_traction(const WallPoint& point, double pressure) const {
+  const double depth = radius_ + half_size_ - point.r;
+  if (depth <= 0.0) return 0.0;
+  return std::clamp(constants_.normal_stiffness * depth - constants_.normal_damping * point.velocity_r, 0.0,
+                    pressure);
+}
+
 WallForce MouldContact::force(const WallPoint& point, double rim, double rim_velocity, double dt) const {
-  const double depth = point.r + half_size_ - radius_ + std::max(0.0, preload(point.z));
   const double covered = point.z + half_size_ - rim;
-  // beyond 2 half sizes the point has left through the gap below the rim and stands outside
-  if (depth <= 0.0 || covered <= 0.0 || depth > 2.0 * half_size_) return {};
+  if (covered <= 0.0) return {};
   const double share = std::min(1.0, covered / (2.0 * half_size_));
-  double traction =
-      std::max(0.0, constants_.normal_stiffness * depth + constants_.normal_damping * point.velocity_r);
-  if (share < 1.0) traction = std::min(traction, share * std::max(point.radial_pressure, 0.0));
+  const double pressure = share * std::max(point.radial_pressure, 0.0);
   const double area = radius_ * 2.0 * half_size_;
+  if (point.r > radius_) return {outer_traction(point, pressure) * area, 0.0};
+  const double depth = point.r + half_size_ - radius_ + std::max(0.0, preload(point.z));
+  if (depth <= 0.0) return {};
+  const double firm = 2.0 * half_size_ * kFirm;
+  const double most =
+      share < 1.0
+          ? pressure
+          : std::max(pressure, constants_.normal_stiffness * std::clamp(2.0 * firm - depth, 0.0, firm));
+  const double traction = std::clamp(
+      constants_.normal_stiffness * depth + constants_.normal_damping * point.velocity_r, 0.0, most);
   WallForce f;
   f.r = -traction * area;
   if (!mould_.wall.is_smooth()) {

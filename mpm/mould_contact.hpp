@@ -29,6 +29,9 @@ struct WallPoint {
 /// ends gradually as the rim rises past a point and not before or after by the size of a cell. The wall is a
 /// force on points, not a condition on grid nodes: where it acts does not depend on how nodes lie to R and
 /// to the rim. Shear on the wall takes away part of the slip, up to its limit.
+///
+/// The wall has no thickness. A point with its centre beyond R has left below the rim: where it rises again
+/// beside the wall, the outer face, which is smooth, holds it out by no more than the mud's radial pressure.
 class MouldContact final : public PointForce {
  public:
   struct Constants {
@@ -51,6 +54,8 @@ class MouldContact final : public PointForce {
   [[nodiscard]] WallForce force(const WallPoint& point, double rim, double rim_velocity, double dt) const;
 
  private:
+  /// Traction (Pa) outwards on a point beside the wall, up to `pressure` (Pa).
+  [[nodiscard]] double outer_traction(const WallPoint& point, double pressure) const;
   /// How far the wall must be pushed for the pressure in the filled mould at a height (m).
   template <class T>
   [[nodiscard]] T preload(const T& z) const {

@@ -42,6 +42,7 @@ RunStatus status_of(const SlumpFailure& failure) {
     case SlumpFailure::Kind::bad_setup:
     case SlumpFailure::Kind::not_finite:
     case SlumpFailure::Kind::no_outline:
+    case SlumpFailure::Kind::energy:
       break;
   }
   return RunStatus::crashed;

@@ -92,7 +92,7 @@ struct SlumpResult {
 };
 
 struct SlumpFailure {
-  enum class Kind { bad_setup, left_grid, left_slab, not_finite, interrupted, timed_out, no_outline };
+  enum class Kind { bad_setup, left_grid, left_slab, not_finite, interrupted, timed_out, no_outline, energy };
   Kind kind;
   double time;  ///< s
   double r;     ///< m, where it has a place

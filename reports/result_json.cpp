@@ -7,6 +7,7 @@
 #include "reports/json_number.hpp"
 #include "reports/oedometer_json.hpp"
 #include "reports/result_head.hpp"
+#include "reports/slump_budgets.hpp"
 #include "reports/slump_json.hpp"
 
 namespace isotach::reports {
@@ -99,7 +100,7 @@ ordered_json result_json(const RunInfo& run, const datasets::Study& study,
 
 ordered_json result_json(const RunInfo& run, const datasets::SlumpFile& test,
                          const mpm::SlumpResult& result) {
-  ordered_json json = result_head(run, "ok", {});
+  ordered_json json = result_head(run, "ok", slump_warnings(result));
   json.update(slump_json(test.setup, result));
   json["assumptions"] = test.assumptions;
   return json;

@@ -12,6 +12,7 @@
 #include "reports/fit_sections.hpp"
 #include "reports/material_table.hpp"
 #include "reports/number.hpp"
+#include "reports/slump_budgets.hpp"
 #include "reports/slump_tables.hpp"
 #include "reports/units.hpp"
 
@@ -21,8 +22,6 @@ namespace {
 using mpm::HistoryRow;
 using mpm::SlumpResult;
 
-constexpr double kVolumeErrorLimit = 0.01;  // beyond these a run is not to be trusted without a word
-constexpr double kEnergyErrorLimit = 0.02;
 constexpr std::size_t kTimesShown = 7;  // as many as the palette has colours
 
 constexpr std::size_t kMapsShown = 6;
@@ -137,16 +136,9 @@ void add_summary(Page& page, const datasets::SlumpFile& test, const SlumpResult&
                   format_number(kMillimetres * last.toe(), 3),
                   format_number(kMillimetres * test.setup.mould.fill_height, 3),
                   format_number(0.5 * kMillimetres * test.setup.mould.diameter, 3)));
-  const auto budget = [&](const char* what, double error, double limit) {
-    const bool kept = error <= limit;
-    page.verdict(kept ? Tone::good : Tone::warning,
-                 fmt::format("{} to within {} %{}", what, format_number(100.0 * error, 2),
-                             kept ? "."
-                                  : fmt::format(", more than the {} % to be expected: try smaller cells.",
-                                                format_number(100.0 * limit, 1))));
-  };
-  budget("Volume is kept", result.volume_error, kVolumeErrorLimit);
-  budget("The balance of energy closes", result.energy_error, kEnergyErrorLimit);
+  for (const Budget& budget : slump_budgets(result)) {
+    page.verdict(budget.kept ? Tone::good : Tone::warning, budget.text);
+  }
   if (result.floored > 0) {
     page.verdict(Tone::plain,
                  fmt::format("{} of {} point updates left the domain of the law and were set to its "

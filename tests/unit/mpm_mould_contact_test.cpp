@@ -2,6 +2,8 @@
 // The wall's force on a material point, by hand.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mpm/mould_contact.hpp"
 
 namespace isotach::mpm {
@@ -111,6 +113,35 @@ TEST(MouldContact, PointThatLeftBelowTheRimStandsOutsideFree) {
     const WallForce f = force({.depth = 1.1 * kSize, .z = 0.05, .rim = 0.0}, wall);
     EXPECT_EQ(f.r, 0.0);
     EXPECT_EQ(f.z, 0.0);
+  }
+}
+
+// Mud that left below the rim and rises beside the mould: k depth where it presses, never more than its
+// pressure.
+TEST(MouldContact, OuterFaceHoldsMudOutByNoMoreThanItsPressure) {
+  for (const Wall& wall : {Wall::smooth(), Wall::rough()}) {
+    const WallForce light = force({.depth = kSize - 1e-5, .z = 0.05}, wall);
+    EXPECT_NEAR(light.r, 500.0 * kArea, 1e-6 * kArea * 500.0);
+    EXPECT_EQ(light.z, 0.0);
+    EXPECT_NEAR(force({.depth = 0.6 * kSize}, wall).r, 1000.0 * kArea, 1e-9 * kArea * 1000.0);
+    EXPECT_EQ(force({.depth = 0.6 * kSize, .pressure = -10.0}, wall).r, 0.0);
+    EXPECT_EQ(force({.depth = 0.6 * kSize, .velocity_r = 1e4}, wall).r, 0.0);
+  }
+}
+
+// A point so deep in the wall as mud inside is never pressed came round the rim.
+TEST(MouldContact, PointDeepInTheWallIsNotShotThroughTheMud) {
+  const double firm = 0.125 * kSize;
+  EXPECT_NEAR(force({.depth = 0.9 * firm}).r, -0.9 * firm * kStiffness * kArea, 1e-9 * kArea * 1e4);
+  EXPECT_NEAR(force({.depth = 0.45 * kSize}).r, -1000.0 * kArea, 1e-9 * kArea * 1e3);
+  EXPECT_EQ(force({.depth = 0.45 * kSize, .pressure = -10.0}).r, 0.0);
+  // without a jump on the way
+  double before = force({.depth = 0.0}).r;
+  const double step = 1e-3 * kSize;
+  for (double depth = step; depth < 0.5 * kSize; depth += step) {
+    const double now = force({.depth = depth}).r;
+    EXPECT_LE(std::abs(now - before), 1.001 * step * kStiffness * kArea) << "at " << depth;
+    before = now;
   }
 }
 
