@@ -114,6 +114,9 @@ mpm::Numerics read_numerics(TomlTable& root) {
       numerics->number_if("inertia_scaling", {1.0, 1e6}).value_or(result.inertia_scaling);
   result.background_viscosity =
       numerics->number_if("background_viscosity_Pa_s", {0.0, 1000.0}).value_or(result.background_viscosity);
+  if (const auto scheme = numerics->choice_if("scheme", mpm::kSchemeNames)) {
+    result.scheme = static_cast<mpm::Scheme>(*scheme);
+  }
   numerics->reject_unknown_keys();
   return result;
 }

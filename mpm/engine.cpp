@@ -381,7 +381,8 @@ std::optional<EngineFailure> Engine::pull(double dt) {
     if (!body.averaged) continue;
     for (const auto& rates : field.rates) field.corners.rates.add(rates, 0, rates.rows());
     field.corners.average_rate();
-    if (body.flows) close_gap_above_base(grid_, settings_.symmetry, field.corners);
+    if (body.flows && settings_.closes_base_gap)
+      close_gap_above_base(grid_, settings_.symmetry, field.corners);
   }
   return failure;
 }

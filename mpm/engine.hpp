@@ -30,6 +30,7 @@ struct EngineSettings {
   double gravity = 9.81;         ///< m/s2, downwards
   double courant = 0.8;          ///< fraction of the critical time step
   double residual_time = 0.15;   ///< s, in which what the grid cannot hold of a point's velocity fades
+  bool closes_base_gap = true;   ///< of mud that comes down on a base: base_gap.hpp
   double inertia_scaling = 1.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
   double energy_scale = 0.0;     ///< J/rad; kinetic energies far below it are quasi-static
   int threads = 1;

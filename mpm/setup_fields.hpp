@@ -58,7 +58,7 @@ void visit_fields(Setup& setup, Visitor&& visit) {
   }
   {
     auto& [cell_size, points_per_cell, water_bulk_modulus, courant, tolerance, viscosity, threads,
-           inertia_scaling] = numerics;
+           inertia_scaling, scheme] = numerics;
     static_cast<void>(threads);
     visit("cell_size_m", cell_size);
     visit("points_per_cell", points_per_cell);
@@ -67,6 +67,9 @@ void visit_fields(Setup& setup, Visitor&& visit) {
     visit("tolerance", tolerance);
     visit("background_viscosity_Pa_s", viscosity);
     visit("inertia_scaling", inertia_scaling);
+    bool plain = scheme == Scheme::plain;
+    visit("plain_scheme", plain);
+    if constexpr (!std::is_const_v<Setup>) scheme = plain ? Scheme::plain : Scheme::conserving;
   }
   visit("times_s", times);
 }

@@ -48,8 +48,10 @@ EngineSettings settings_of(const SlumpSetup& setup, double density) {
   settings.courant = setup.numerics.courant;
   settings.inertia_scaling = setup.numerics.inertia_scaling;
   settings.energy_scale = potential_energy(setup, density);
+  const bool plain = setup.numerics.scheme == Scheme::plain;
+  settings.closes_base_gap = !plain;
   settings.residual_time =
-      kResidualCells * divided_cell_size(setup) / std::sqrt(kGravity * setup.mould.fill_height);
+      plain ? 0.0 : kResidualCells * divided_cell_size(setup) / std::sqrt(kGravity * setup.mould.fill_height);
   settings.threads = setup.numerics.threads;
   return settings;
 }

@@ -2,8 +2,10 @@
 // What defines one slump test: mould, mud, base, numerics and the times at which results are wanted.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "mpm/base_friction.hpp"
@@ -61,6 +63,16 @@ struct Base {
   std::optional<ElasticSlab> slab;
 };
 
+/// How points and grid exchange motion.
+enum class Scheme {
+  conserving,  ///< what the grid cannot hold of a point's motion is kept for a while; mud comes down to its
+               ///< base
+  plain        ///< affine particle-in-cell as in many codes: that motion is lost, and so is energy; mud stays
+               ///< above its base by a part of a cell. For comparison with such codes.
+};
+/// "conserving", "plain".
+inline constexpr std::array<std::string_view, 2> kSchemeNames{"conserving", "plain"};
+
 /// Numerical choices; the defaults are meant to be kept.
 struct Numerics {
   double cell_size = 0.004;           ///< wanted cell size (m); the one used divides the mould's radius
@@ -71,6 +83,7 @@ struct Numerics {
   double background_viscosity = 0.2;  ///< eta (Pa s) of a stress 2 eta D* beside the law's, >= 0
   int threads = 1;
   double inertia_scaling = 100.0;  ///< largest factor on inertia while the flow is quasi-static; 1 = none
+  Scheme scheme = Scheme::conserving;
 };
 
 /// One slump test.

@@ -45,6 +45,7 @@ ordered_json slump_json(const mpm::SlumpSetup& setup, const mpm::SlumpResult& re
                       {"points_per_cell", numerics.points_per_cell},
                       {"water_bulk_modulus_kPa", json_number(1e-3 * numerics.water_bulk_modulus)},
                       {"background_viscosity_Pa_s", json_number(numerics.background_viscosity)},
+                      {"scheme", mpm::kSchemeNames[static_cast<std::size_t>(numerics.scheme)]},
                       {"inertia_scaling_limit", json_number(numerics.inertia_scaling)},
                       {"inertia_scaling_used", json_number(largest_inertia_scaling(result))},
                       {"courant", json_number(numerics.courant)},

@@ -104,12 +104,16 @@ std::string numerics_text(const NamedRun& run) {
       "mould's radius), {} points a cell at the start, bulk modulus of the water {} kPa, a "
       "viscosity of {} Pa s beside the law, stress update to a relative tolerance of {}, time step "
       "{} of "
-      "the critical one. While the flow is quasi-static, inertia may be scaled up to a factor of {}.",
+      "the critical one. While the flow is quasi-static, inertia may be scaled up to a factor of {}.{}",
       format_number(kMillimetres * run.result->cell_size, 3),
       format_number(kMillimetres * numerics.cell_size, 3), numerics.points_per_cell,
       format_number(1e-3 * numerics.water_bulk_modulus, 3), format_number(numerics.background_viscosity, 2),
       format_number(numerics.tolerance, 2), format_number(numerics.courant, 2),
-      format_number(numerics.inertia_scaling, 3));
+      format_number(numerics.inertia_scaling, 3),
+      numerics.scheme == mpm::Scheme::plain
+          ? " Plain scheme, for comparison with other codes: it loses energy, "
+            "and mud stays above its base by a part of a cell."
+          : "");
 }
 
 Series outline_series(const mpm::Outline& outline, std::string label) {

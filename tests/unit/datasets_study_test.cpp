@@ -353,7 +353,7 @@ TEST_F(StudyFile, NumericsComeOutInSI) {
   const mpm::Numerics numerics =
       read_changed("points_per_cell = 9\n",
                    "points_per_cell = 16\nwater_bulk_modulus_kPa = 500\ncourant = 0.3\ntolerance = 1e-4\n"
-                   "background_viscosity_Pa_s = 0.4\ninertia_scaling = 7\n")
+                   "background_viscosity_Pa_s = 0.4\ninertia_scaling = 7\nscheme = \"plain\"\n")
           .slump_tests[0]
           .setup.numerics;
   EXPECT_EQ(numerics.points_per_cell, 16);
@@ -362,6 +362,7 @@ TEST_F(StudyFile, NumericsComeOutInSI) {
   EXPECT_DOUBLE_EQ(numerics.tolerance, 1e-4);
   EXPECT_DOUBLE_EQ(numerics.background_viscosity, 0.4);
   EXPECT_DOUBLE_EQ(numerics.inertia_scaling, 7.0);
+  EXPECT_EQ(numerics.scheme, mpm::Scheme::plain);
 }
 
 }  // namespace

@@ -142,6 +142,7 @@ TEST(JournalKey, SeesEveryInputButTheThreads) {
   with([](auto& s) { s.base.slab = mpm::ElasticSlab{}; });
   with([](auto& s) { s.numerics.cell_size = 0.008; });
   with([](auto& s) { s.numerics.inertia_scaling = 1.0; });
+  with([](auto& s) { s.numerics.scheme = mpm::Scheme::plain; });
   with([](auto& s) { s.times.push_back(0.3); });
   mpm::SlumpSetup threads = setup;
   threads.numerics.threads = 7;
@@ -155,17 +156,18 @@ TEST(JournalKey, IsTheUuidOfItsText) {
   EXPECT_EQ(inputs.parameters, R"({"e100":1.358,"lambda":0.154,"kappa":0.0129,"I_v":0.02,"D_r":6.8e-07,)"
                                R"("phi_c":0.24783675378319478,"C_1":0.03,"C_2":0.0,"C_3":0.0,)"
                                R"("lode_dependence":"matsuoka-nakai"})");
-  EXPECT_EQ(inputs.setup,
-            R"({"mould_diameter_m":0.078,"mould_fill_height_m":0.04,"mould_lift_speed_m_per_s":0.06,)"
-            R"("mould_wall_adhesion_Pa":0.0,"mould_wall_friction":0.0,"mould_lift_delay_s":0.0,)"
-            R"("mould_lift_table_s_m":[],"mud_void_ratio":5.0,"mud_undrained_strength_Pa":null,)"
-            R"("mud_strength_rate_per_s":null,"mud_specific_gravity":2.65,"mud_ocr":1.5,)"
-            R"("base_adhesion_Pa":"inf","base_friction":0.0,"base_slip_length_m":0.0,)"
-            R"("base_elastic":false,"cell_size_m":0.013,"points_per_cell":4,)"
-            R"("water_bulk_modulus_Pa":300000.0,"courant":0.8,"tolerance":0.003,)"
-            R"("background_viscosity_Pa_s":0.2,"inertia_scaling":100.0,"times_s":[0.1,0.2]})");
-  EXPECT_EQ(inputs.key, "17d46501-31a4-5111-883f-04c53f8b5fd4");
-  EXPECT_EQ(inputs.setup_key, "5c6f83e5-3065-519f-9d0e-adb65dfa698a");
+  EXPECT_EQ(
+      inputs.setup,
+      R"({"mould_diameter_m":0.078,"mould_fill_height_m":0.04,"mould_lift_speed_m_per_s":0.06,)"
+      R"("mould_wall_adhesion_Pa":0.0,"mould_wall_friction":0.0,"mould_lift_delay_s":0.0,)"
+      R"("mould_lift_table_s_m":[],"mud_void_ratio":5.0,"mud_undrained_strength_Pa":null,)"
+      R"("mud_strength_rate_per_s":null,"mud_specific_gravity":2.65,"mud_ocr":1.5,)"
+      R"("base_adhesion_Pa":"inf","base_friction":0.0,"base_slip_length_m":0.0,)"
+      R"("base_elastic":false,"cell_size_m":0.013,"points_per_cell":4,)"
+      R"("water_bulk_modulus_Pa":300000.0,"courant":0.8,"tolerance":0.003,)"
+      R"("background_viscosity_Pa_s":0.2,"inertia_scaling":100.0,"plain_scheme":false,"times_s":[0.1,0.2]})");
+  EXPECT_EQ(inputs.key, "7c4fe820-d5aa-569f-902a-10328f2be5ca");
+  EXPECT_EQ(inputs.setup_key, "94b36350-3478-59be-83b1-fb4c7ffcc704");
 }
 
 class JournalRefuses : public JournalTest {
