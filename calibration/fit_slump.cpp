@@ -213,10 +213,11 @@ void heed_map(const Problem& problem, const SlumpMap& map, std::vector<double>& 
   result.parameters = *problem.parametrisation().at(answer);
 }
 
-/// Adds to the covariance what the choice of cells and points makes of the answer. Returns by how much each
-/// coordinate's variance grew.
+/// Adds to the covariance what the choice of cells and points makes of the answer, and, where there is a map,
+/// the error of its surrogate. Returns by how much each coordinate's variance grew.
 std::vector<double> add_numerics(const Problem& problem, const std::vector<double>& answer,
-                                 const SlumpExperiments& all, SlumpFit& fit) {
+                                 const SlumpExperiments& all, const SlumpSurrogate* surrogate,
+                                 SlumpFit& fit) {
   Eigen::MatrixXd& covariance = fit.result.uncertainty.covariance;
   std::vector<double> widening(answer.size(), 1.0);
   const auto at = problem.linearise(answer);
@@ -241,7 +242,8 @@ std::vector<double> add_numerics(const Problem& problem, const std::vector<doubl
   reorder(error.runs);
   for (NumericalVariant& variant : error.variants) reorder(variant.runs);
   fit.shifts = numerical_shifts(*at, in_order, error);
-  const Eigen::MatrixXd numerics = numerical_covariance(fit.shifts, covariance.rows());
+  Eigen::MatrixXd numerics = numerical_covariance(fit.shifts, covariance.rows());
+  if (surrogate != nullptr) numerics += covariance_of_errors(at->jacobian, surrogate->error_directions());
   for (std::size_t k = 0; k < widening.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     if (covariance(i, i) > 0.0) widening[k] = 1.0 + numerics(i, i) / covariance(i, i);
@@ -295,7 +297,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
         failed, failed == 1 ? "" : "s"));
   }
   result.uncertainty = std::move(*uncertainty);
-  const std::vector<double> widening = add_numerics(problem, answer, all, fit);
+  const std::vector<double> widening = add_numerics(problem, answer, all, nullptr, fit);
   if (options.map) {
     tell(options, "map and profiles");
     auto map = map_slump(problem, answer, result.uncertainty,
@@ -310,7 +312,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
       const Problem on_surrogate = with_surrogate(problem, fit.map->surrogate);
       if (auto smooth = estimate_uncertainty(on_surrogate, answer, Correlation::independent)) {
         result.uncertainty = std::move(*smooth);
-        static_cast<void>(add_numerics(on_surrogate, answer, all, fit));
+        static_cast<void>(add_numerics(on_surrogate, answer, all, fit.map->surrogate.get(), fit));
       }
     }
   }

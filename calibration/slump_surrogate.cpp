@@ -1,6 +1,7 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/slump_surrogate.hpp"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -148,11 +149,14 @@ SlumpSurrogate::SlumpSurrogate(const Problem& problem, const CoordinateBox& box,
     rest -= sizes[kept] * sizes[kept];
   }
   components_ = svd.matrixU().leftCols(kept);
+  error_directions_.resize(values.rows(), kept);
   Eigen::MatrixXd missed = values;  // what is left out, and by how much the processes miss what is not
   for (Eigen::Index c = 0; c < kept; ++c) {
     const Eigen::VectorXd scores = sizes[c] * svd.matrixV().col(c);
     processes_.emplace_back(inputs, scores);
     missed -= components_.col(c) * (scores - processes_.back().left_out()).transpose();
+    const double rms = processes_.back().left_out().norm() / std::sqrt(static_cast<double>(points_));
+    error_directions_.col(c) = rms * components_.col(c);
   }
   error_ = std::sqrt(missed.squaredNorm() / static_cast<double>(missed.size()));
 }
@@ -164,6 +168,14 @@ Eigen::VectorXd SlumpSurrogate::values(const std::vector<double>& x) const {
     result += processes_[c].mean(unit) * components_.col(static_cast<Eigen::Index>(c));
   }
   return result;
+}
+
+Eigen::MatrixXd covariance_of_errors(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& directions) {
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(jacobian.rows(), directions.cols());
+  errors.topRows(directions.rows()) = directions;
+  const Eigen::MatrixXd moves =
+      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(jacobian).solve(errors);
+  return moves * moves.transpose();
 }
 
 Problem with_surrogate(const Problem& problem, std::shared_ptr<const SlumpSurrogate> surrogate) {

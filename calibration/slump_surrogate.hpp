@@ -48,6 +48,10 @@ class SlumpSurrogate {
   /// Root mean square of what points left out are missed by, in units of the values' noise. The scatter that
   /// simulations have of themselves is in it.
   [[nodiscard]] double error() const { return error_; }
+  /// The same as directions: by a column each, the root mean square by which a component is missed, times the
+  /// component. Rows as those of values(). Errors of one point are alike over all tests, so they do not
+  /// average out as noise does.
+  [[nodiscard]] const Eigen::MatrixXd& error_directions() const { return error_directions_; }
   /// Values at coordinates x, which may lie outside of the box, where they are worth less.
   [[nodiscard]] Eigen::VectorXd values(const std::vector<double>& x) const;
 
@@ -57,8 +61,14 @@ class SlumpSurrogate {
   Eigen::VectorXd mean_;
   Eigen::MatrixXd components_;  ///< a column each, orthonormal
   std::vector<GaussianProcess> processes_;
+  Eigen::MatrixXd error_directions_;
   double error_ = 0.0;
 };
+
+/// What errors of the predictions, in directions as SlumpSurrogate::error_directions() has them, add to the
+/// covariance of the coordinates. The Jacobian's first rows are those of the directions.
+[[nodiscard]] Eigen::MatrixXd covariance_of_errors(const Eigen::MatrixXd& jacobian,
+                                                   const Eigen::MatrixXd& directions);
 
 /// The problem with its fitted experiments' predictions taken from the surrogate.
 [[nodiscard]] Problem with_surrogate(const Problem& problem, std::shared_ptr<const SlumpSurrogate> surrogate);
