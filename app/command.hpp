@@ -85,6 +85,7 @@ void add_file_limit(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner element_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner fit_oedometer_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner fit_slump_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner next_test_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner profile_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner slump_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner verify_command(CLI::App& line, CommonOptions& common);

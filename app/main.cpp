@@ -32,6 +32,8 @@ constexpr Command kCommands[] = {
      isotach::app::fit_oedometer_command},
     {"fit-slump", "I_v and C_1 (as the study says) from measured slump outlines",
      isotach::app::fit_slump_command},
+    {"next-test", "what each test that could be made next would add to I_v and C_1",
+     isotach::app::next_test_command},
     {"profile", "outlines of a slump from photographs or the frames of a video",
      isotach::app::profile_command},
     {"slump", "one slump test by the material point method", isotach::app::slump_command},

@@ -22,7 +22,7 @@ struct Change {
   int more_cells = 0;  ///< across the radius
   bool more_points = false;
 };
-constexpr Change kChanges[] = {{1, false}, {2, false}, {0, true}};
+constexpr Change kChanges[kNumericalVariants] = {{1, false}, {2, false}, {0, true}};
 
 int cells_of(const mpm::SlumpSetup& setup) {
   return static_cast<int>(std::max(1.0, std::round(0.5 * setup.mould.diameter / setup.numerics.cell_size)));
@@ -126,7 +126,7 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
   for (const datasets::SlumpTest& test : study.slump_tests) {
     if (!test.hold_out) tests.push_back(&test);
   }
-  constexpr std::size_t kVariants = std::size(kChanges);
+  constexpr std::size_t kVariants = kNumericalVariants;
   // the last run of each test is that of the study's numerics
   std::vector<tl::expected<mpm::SlumpResult, mpm::RunFailure>> runs(tests.size() * (kVariants + 1));
   parallel_for(runs.size(), threads, [&](std::size_t i) {

@@ -15,6 +15,9 @@
 
 namespace isotach::calibration {
 
+/// In how many ways the numerics are changed.
+inline constexpr std::size_t kNumericalVariants = 3;
+
 /// Simulations of all tests with their numerics changed in one way.
 struct NumericalVariant {
   std::string name;        ///< "7 cells across the radius instead of 6"

@@ -197,6 +197,12 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   return found;
 }
 
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> names;
+  for (const auto& [key, node] : *table_) names.emplace_back(key.str());
+  return names;
+}
+
 void TomlTable::reject_unknown_keys() const {
   for (const auto& [key, node] : *table_) {
     if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;

@@ -53,6 +53,8 @@ class TomlTable {
   [[nodiscard]] std::optional<TomlTable> table_if(std::string_view key);
   /// The tables of [[key]], in the file's order; none where it is absent.
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
+  /// All keys, sorted: of a table whose keys are names that the user gives.
+  [[nodiscard]] std::vector<std::string> keys() const;
   /// Whether the table holds nothing.
   [[nodiscard]] bool empty() const { return table_->empty(); }
 

@@ -171,7 +171,7 @@ void add_slump_fit_section(Page& page, const datasets::Study& study, const Slump
                   "come from {}, times {} for misfit beyond that noise.",
                   fit.map ? "the surrogate" : "central differences between simulations",
                   format_number(result.uncertainty.inflation, 3)));
-  add_simulation_error(page, fit);
+  add_simulation_error(page, fit.simulation_error);
   for (const std::string& sentence : null_direction_sentences(result)) page.box(Tone::warning, sentence);
   std::vector<Figure> figures{cost_figure(result)};
   for (std::size_t k = 0; k < result.coordinates.size(); ++k) figures.push_back(parameter_figure(result, k));

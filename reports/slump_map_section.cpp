@@ -176,9 +176,8 @@ void add_slump_map(Page& page, const SlumpFit& fit) {
   page.table(profile_table(fit));
 }
 
-void add_simulation_error(Page& page, const SlumpFit& fit) {
+void add_simulation_error(Page& page, const calibration::SimulationError& error) {
   using enum Alignment;
-  const calibration::SimulationError& error = fit.simulation_error;
   if (error.variants.empty()) return;
   Table table{
       .caption = "Distance between simulated outlines when the numerics change (root mean square, mm).",

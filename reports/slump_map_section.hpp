@@ -11,7 +11,7 @@ namespace isotach::reports {
 void add_slump_map(Page& page, const calibration::SlumpFit& fit);
 
 /// The error of the simulations themselves, and how it was measured.
-void add_simulation_error(Page& page, const calibration::SlumpFit& fit);
+void add_simulation_error(Page& page, const calibration::SimulationError& error);
 
 /// Mean distances by test, time and part of the outline, the largest first.
 void add_where_it_fails(Page& page, const calibration::SlumpFit& fit);

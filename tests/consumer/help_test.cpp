@@ -16,6 +16,7 @@ const std::map<std::string, std::vector<std::string>> kCommands{
      {" TEST", "--max-file-mb", "--integrator", "fellin-ostermann", "cvode", "rosenbrock", "--tolerance"}},
     {"fit-oedometer", {" STUDY", "--max-file-mb"}},
     {"fit-slump", {" STUDY", "--max-file-mb", "--journal", "--no-journal", "--time-limit"}},
+    {"next-test", {" STUDY", "--candidates", "--max-file-mb", "--journal", "--no-journal", "--time-limit"}},
     {"profile",
      {" IMAGE", "--scale-mm-per-pixel", "--reference-length-mm", "--mould-picture", "--rectangle",
       "--circle-point", "--camera-distance-mm", "--base-row", "--axis-column", "--region", "--ignore",
