@@ -116,9 +116,9 @@ int fit_slump(const CommonOptions& options, const JournalLine& journal_line) {
   fit_options.control.stop = &interrupted();
   fit_options.seed = study.fit.seed;
   bool searching = true;  // after the search the callback hears of the map's simulations
-  fit_options.stage = [&](const std::string& stage) {
-    if (stage == "uncertainty") searching = false;
-    progress.update(searching ? 0.02 : 0.5, stage);
+  fit_options.stage = [&](calibration::SlumpFitStage stage) {
+    searching = stage == calibration::SlumpFitStage::simulation_error;
+    progress.update(searching ? 0.02 : 0.5, name_of(stage));
   };
   fit_options.control.callback = [&](int count, double cost) {
     if (searching) {  // a search usually ends within two thirds of the evaluations it may use

@@ -103,7 +103,9 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
     runs += found->runs;
     if (is_first) {
       slump_options.map = true;
-      slump_options.stage = [&](const std::string& stage) { report(0.0, "slump fit: " + stage); };
+      slump_options.stage = [&](SlumpFitStage stage) {
+        report(0.0, fmt::format("slump fit: {}", name_of(stage)));
+      };
       slump_options.control.callback = [&](int simulations, double) {
         report(simulations / static_cast<double>(study.slump_tests.size()),
                fmt::format("map of the slump fit, {} simulations", simulations));

@@ -36,7 +36,7 @@ class RunTally {
   mpm::RunCounts counts_;
 };
 
-void tell(const SlumpFitOptions& options, const char* stage) {
+void tell(const SlumpFitOptions& options, SlumpFitStage stage) {
   if (options.stage) options.stage(stage);
 }
 
@@ -68,16 +68,6 @@ SlumpExperiments make_experiments(const datasets::Study& study, const experiment
   return all;
 }
 
-/// Indices in the order in which threads should take the tests up, so that none waits for a long one at the
-/// end.
-std::vector<std::size_t> by_cost(const SlumpExperiments& all) {
-  std::vector<std::size_t> order(all.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return all[a]->cost() > all[b]->cost(); });
-  return order;
-}
-
 double rms_where(const experiments::Values& values, const std::vector<bool>& chosen) {
   experiments::Values subset;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -104,7 +94,7 @@ double volume_excess(const datasets::SlumpTest& test) {
 tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(
     const SlumpExperiments& all, const model::Parameters<double>& parameters, int threads) {
   std::vector<tl::expected<mpm::SlumpResult, experiments::PredictionFailure>> simulations(all.size());
-  const std::vector<std::size_t> order = by_cost(all);
+  const std::vector<std::size_t> order = by_cost({all.begin(), all.end()});
   parallel_for(all.size(), threads,
                [&](std::size_t k) { simulations[order[k]] = all[order[k]]->simulate(parameters); });
   std::vector<SlumpComparison> comparisons;
@@ -132,16 +122,29 @@ double rms_mould_gone(const std::vector<SlumpComparison>& comparisons) {
   return experiments::root_mean_square(values);
 }
 
-/// D_r stays: the oedometer's gauge has been applied.
+/// The study's tests in their order. D_r stays: the oedometer's gauge has been applied.
 Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
                      const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
                      int threads) {
-  Experiments by_length;
-  for (const std::size_t i : by_cost(all)) by_length.push_back(all[i]);
-  return Problem(by_length, Parametrisation(at, wanted, {study.fit.bounds, {}}, GaugeChoice{}), threads);
+  const Experiments in_order(all.begin(), all.end());
+  return Problem(in_order, Parametrisation(at, wanted, {study.fit.bounds, {}}, GaugeChoice{}), threads);
 }
 
 }  // namespace
+
+std::string_view name_of(SlumpFitStage stage) {
+  switch (stage) {
+    case SlumpFitStage::simulation_error:
+      return "error of the simulations";
+    case SlumpFitStage::uncertainty:
+      return "uncertainty";
+    case SlumpFitStage::map:
+      return "map and profiles";
+    case SlumpFitStage::comparison:
+      return "comparison of all tests";
+  }
+  return "";
+}
 
 experiments::Simulate plain_simulation(const std::atomic<bool>* stop) {
   return [stop](const std::string&, const model::Parameters<double>& parameters,
@@ -165,7 +168,7 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
   if (options.simulation_error) {
     found.simulation_error = *options.simulation_error;
   } else {
-    tell(options, "error of the simulations");
+    tell(options, SlumpFitStage::simulation_error);
     auto measured = measure_simulation_error(study, start, simulate, options.threads);
     if (!measured) return tl::unexpected(measured.error());
     found.simulation_error = std::move(*measured);
@@ -225,23 +228,7 @@ std::vector<double> add_numerics(const Problem& problem, const std::vector<doubl
   SlumpExperiments fitted;
   std::copy_if(all.begin(), all.end(), std::back_inserter(fitted),
                [](const auto& test) { return !test->held_out(); });
-  // the problem has its tests by length
-  SlumpExperiments in_order;
-  SimulationError error = fit.simulation_error;
-  std::vector<std::size_t> places;
-  for (const auto& test : problem.fitted()) {
-    const auto same = std::find_if(fitted.begin(), fitted.end(),
-                                   [&](const auto& other) { return other->name() == test->name(); });
-    places.push_back(static_cast<std::size_t>(same - fitted.begin()));
-    in_order.push_back(*same);
-  }
-  const auto reorder = [&places](auto& runs) {
-    const auto before = runs;
-    for (std::size_t i = 0; i < places.size(); ++i) runs[i] = before[places[i]];
-  };
-  reorder(error.runs);
-  for (NumericalVariant& variant : error.variants) reorder(variant.runs);
-  fit.shifts = numerical_shifts(*at, in_order, error);
+  fit.shifts = numerical_shifts(*at, fitted, fit.simulation_error);
   Eigen::MatrixXd numerics = numerical_covariance(fit.shifts, covariance.rows());
   if (surrogate != nullptr) numerics += covariance_of_errors(at->jacobian, surrogate->error_directions());
   for (std::size_t k = 0; k < widening.size(); ++k) {
@@ -286,7 +273,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   result.warnings = found.warnings;
   result.parameters = found.parameters;
 
-  tell(options, "uncertainty");
+  tell(options, SlumpFitStage::uncertainty);
   auto uncertainty = estimate_uncertainty(problem, answer, Correlation::independent);
   if (!uncertainty) {
     return tl::unexpected(FitFailure{uncertainty.error().message, uncertainty.error().interrupted});
@@ -299,7 +286,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   result.uncertainty = std::move(*uncertainty);
   const std::vector<double> widening = add_numerics(problem, answer, all, nullptr, fit);
   if (options.map) {
-    tell(options, "map and profiles");
+    tell(options, SlumpFitStage::map);
     auto map = map_slump(problem, answer, result.uncertainty,
                          {widening, options.threads, options.seed, options.control});
     if (!map) {
@@ -320,7 +307,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   result.estimates = estimate_parameters(problem, answer, result.uncertainty);
   if (fit.map) heed_profiles(problem, *fit.map, result);
 
-  tell(options, "comparison of all tests");
+  tell(options, SlumpFitStage::comparison);
   auto comparisons = compare_all(all, *result.parameters, options.threads);
   if (!comparisons) return tl::unexpected(comparisons.error());
   fit.comparisons = std::move(*comparisons);

@@ -30,6 +30,12 @@ struct SlumpFit {
   std::optional<SlumpMap> map;         ///< where it was asked for
 };
 
+/// What a slump fit is doing, in the order in which it does it.
+enum class SlumpFitStage { simulation_error, uncertainty, map, comparison };
+
+/// In words: "map and profiles".
+[[nodiscard]] std::string_view name_of(SlumpFitStage stage);
+
 struct SlumpFitOptions {
   int threads = 1;
   int max_evaluations = 40;
@@ -41,8 +47,8 @@ struct SlumpFitOptions {
   std::optional<SimulationError> simulation_error;
   bool map = true;    ///< profiles and map by a surrogate; intervals then are those of the profiles
   unsigned seed = 1;  ///< of the surrogate's points
-  /// Called with what is being done, besides what control.callback hears of the search.
-  std::function<void(const std::string&)> stage;
+  /// Called where a stage begins; the search itself, after simulation_error, is heard by control.callback.
+  std::function<void(SlumpFitStage)> stage;
 };
 
 /// mpm::run_slump, without history, until `stop`.

@@ -1,6 +1,7 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/problem.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "calibration/parallel.hpp"
@@ -9,14 +10,16 @@ namespace isotach::calibration {
 
 namespace {
 
-/// Runs f(i) for all experiments in parallel and returns the results, or the first failure in their order.
+/// Runs f(i) for all experiments in parallel, the costly ones first, and returns the results, or the first
+/// failure, in the order of the experiments.
 template <class Result, class F>
-tl::expected<std::vector<Result>, experiments::PredictionFailure> for_all(std::size_t count, int threads,
-                                                                          F&& f) {
-  std::vector<tl::expected<Result, experiments::PredictionFailure>> results(count);
-  parallel_for(count, threads, [&](std::size_t i) { results[i] = f(i); });
+tl::expected<std::vector<Result>, experiments::PredictionFailure> for_all(const Experiments& experiments,
+                                                                          int threads, F&& f) {
+  const std::vector<std::size_t> order = by_cost(experiments);
+  std::vector<tl::expected<Result, experiments::PredictionFailure>> results(order.size());
+  parallel_for(order.size(), threads, [&](std::size_t k) { results[order[k]] = f(order[k]); });
   std::vector<Result> values;
-  values.reserve(count);
+  values.reserve(order.size());
   for (auto& result : results) {
     if (!result) return tl::unexpected(result.error());
     values.push_back(std::move(*result));
@@ -26,11 +29,20 @@ tl::expected<std::vector<Result>, experiments::PredictionFailure> for_all(std::s
 
 }  // namespace
 
+std::vector<std::size_t> by_cost(const Experiments& experiments) {
+  std::vector<std::size_t> order(experiments.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return experiments[a]->cost() > experiments[b]->cost();
+  });
+  return order;
+}
+
 tl::expected<Evaluation, experiments::PredictionFailure> evaluate_all(
     const Experiments& experiments, const model::Parameters<double>& parameters,
     const std::vector<std::vector<double>>& locals, int threads) {
   auto all = for_all<experiments::Values>(
-      experiments.size(), threads,
+      experiments, threads,
       [&](std::size_t i) -> tl::expected<experiments::Values, experiments::PredictionFailure> {
         const auto values =
             experiments[i]->predict(parameters, locals.empty() ? experiments[i]->local_values() : locals[i]);
@@ -88,7 +100,7 @@ tl::expected<std::vector<experiments::Linearisation>, experiments::PredictionFai
     const std::vector<double>& x) const {
   const auto tangent = parametrisation_.tangent(x);
   if (!tangent) return tl::unexpected(experiments::PredictionFailure{tangent.error()});
-  return for_all<experiments::Linearisation>(fitted_.size(), threads_, [&](std::size_t i) {
+  return for_all<experiments::Linearisation>(fitted_, threads_, [&](std::size_t i) {
     return fitted_[i]->linearise(tangent->parameters, parametrisation_.local_at(x, index_[i]),
                                  parametrisation_.directions(*tangent, x, index_[i]));
   });

@@ -83,6 +83,10 @@ class Problem {
   int threads_;
 };
 
+/// Indices in the order in which threads should take experiments up, so that none waits for a costly one at
+/// the end.
+[[nodiscard]] std::vector<std::size_t> by_cost(const Experiments& experiments);
+
 /// Half the sum of squares.
 [[nodiscard]] inline double cost_of(const Eigen::VectorXd& residuals) {
   return 0.5 * residuals.squaredNorm();

@@ -70,6 +70,9 @@ class Experiment {
   /// What a fit moves besides the material, in this test alone.
   [[nodiscard]] virtual std::vector<LocalQuantity> locals() const { return {}; }
 
+  /// What a prediction costs, in a unit of the kind of test: for sharing work out.
+  [[nodiscard]] virtual double cost() const { return 0.0; }
+
   /// `local` has a value for each of locals().
   [[nodiscard]] virtual tl::expected<Values, PredictionFailure> predict(
       const model::Parameters<double>& parameters, std::span<const double> local) const = 0;

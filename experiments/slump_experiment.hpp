@@ -34,6 +34,8 @@ class SlumpExperiment final : public Experiment {
     return "distance between outlines, decorrelated (-)";
   }
   [[nodiscard]] const Values& noise() const override { return ones_; }
+  /// By fill and duration.
+  [[nodiscard]] double cost() const override;
   [[nodiscard]] tl::expected<Values, PredictionFailure> predict(const model::Parameters<double>& parameters,
                                                                 std::span<const double> local) const override;
 
@@ -52,8 +54,6 @@ class SlumpExperiment final : public Experiment {
   /// For each point, the index of its outline.
   [[nodiscard]] const std::vector<std::size_t>& outline_index() const { return outline_index_; }
   [[nodiscard]] const std::vector<OutlineStation>& stations() const { return stations_; }
-  /// Relative cost of a simulation, for sharing work out.
-  [[nodiscard]] double cost() const;
 
  private:
   datasets::SlumpTest test_;
