@@ -12,7 +12,7 @@ enum Parameter : std::size_t { inverse_k, c_k };
 
 inline constexpr std::array kParameters{
     EffectParameter{"inverse_k_s_per_m", "s/m", "1/k, k the hydraulic conductivity at e0", 1.0, 0.0, 1e13,
-                    false, 1e9},
+                    false, 2e8},
     EffectParameter{"c_k", "-", "change of e over e0 for a decade of k", 1.0, 0.05, 10.0, false, 0.5},
 };
 

@@ -11,6 +11,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "effects/catalogue.hpp"
 #include "model/parameters.hpp"
 
 namespace isotach::experiments {
@@ -24,14 +25,16 @@ struct PredictionFailure {
 /// Values aligned with the data.
 using Values = std::vector<double>;
 
-/// A quantity of one test that a fit may move along with the material: K0 or OCR of its start.
+/// A quantity that a fit may move along with the material: K0 or OCR of one test's start, or a parameter of
+/// an effect, which all tests share.
 struct LocalQuantity {
-  std::string name;  ///< "K0", "OCR"
-  double value;      ///< as the study gives it (-)
+  std::string name;  ///< "K0", "OCR", "ring_friction.mu"
+  double value;      ///< as the study gives it (SI)
   double lower;      ///< bounds, lower < upper
   double upper;
   bool logarithmic;                 ///< moved as its logarithm
   std::optional<double> std_error;  ///< of the prior around `value`, of the logarithm where that moves
+  std::optional<effects::ParameterRef> effect{};  ///< shared by all tests that have one of that name
 };
 
 /// Predicted values and their derivatives along directions of the inputs.

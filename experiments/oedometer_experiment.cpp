@@ -1,11 +1,14 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/oedometer_experiment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "experiments/effects_prediction.hpp"
 #include "experiments/oedometer_path.hpp"
 #include "integrators/integrate.hpp"
 
@@ -20,24 +23,50 @@ auto in_smallest_form(const model::Parameters<S>& parameters, F&& f) {
                               : f.template operator()<model::Fabric::none>();
 }
 
+/// What a prediction takes: inputs, by scalar.
 template <class S>
-tl::expected<std::vector<S>, PredictionFailure> predict_with(const model::Parameters<S>& parameters,
+struct Inputs {
+  model::Parameters<S> parameters;
+  std::vector<S> start;  ///< K0 and OCR, as far as they move
+  effects::Values<S> effects;
+};
+
+/// The inputs out of an experiment's: `local` holds those of the start, then the free parameters of effects.
+template <class S>
+tl::expected<Inputs<S>, PredictionFailure> inputs_of(const model::Parameters<S>& parameters,
+                                                     std::span<const S> local,
+                                                     const effects::Values<double>& effects,
+                                                     const std::vector<effects::ParameterRef>& free) {
+  const std::size_t own = local.size() - free.size();
+  Inputs<S> inputs{parameters, {local.begin(), local.begin() + static_cast<std::ptrdiff_t>(own)}, {}};
+  if (effects.empty()) return inputs;
+  const auto values = effects.cast<S>().with(std::span(free), local.subspan(own));
+  if (!values) return tl::unexpected(PredictionFailure{values.error().message()});
+  inputs.effects = values->acting_on(effects::TestKind::oedometer);
+  return inputs;
+}
+
+template <class S>
+tl::expected<std::vector<S>, PredictionFailure> predict_with(const Inputs<S>& inputs,
                                                              const datasets::OedometerTest& test,
-                                                             const OedometerProtocol& protocol,
-                                                             std::span<const S> local) {
-  const model::Law<S> law(parameters);
-  return in_smallest_form(parameters, [&]<model::Fabric K>() {
-    return detail::predict_values<S, K>(law, test, protocol, local);
+                                                             const OedometerProtocol& protocol) {
+  const std::span<const S> start(inputs.start);
+  if (!inputs.effects.empty()) {
+    return predict_with_effects(inputs.parameters, inputs.effects, test, protocol, start);
+  }
+  const model::Law<S> law(inputs.parameters);
+  return in_smallest_form(inputs.parameters, [&]<model::Fabric K>() {
+    return detail::predict_values<S, K>(law, test, protocol, start);
   });
 }
 
+}  // namespace
+
 /// Prediction with derivatives along up to `Width` directions.
 template <int Width>
-tl::expected<Linearisation, PredictionFailure> linearise_with(const model::Parameters<double>& parameters,
-                                                              const datasets::OedometerTest& test,
-                                                              const OedometerProtocol& protocol,
-                                                              std::span<const double> local,
-                                                              const Eigen::MatrixXd& directions) {
+tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise_with(
+    const model::Parameters<double>& parameters, std::span<const double> local,
+    const Eigen::MatrixXd& directions) const {
   using Jet = ceres::Jet<double, Width>;
   const Eigen::Index columns = directions.cols();
   const auto jet = [&](double value, std::size_t input) {
@@ -54,7 +83,9 @@ tl::expected<Linearisation, PredictionFailure> linearise_with(const model::Param
   for (std::size_t k = 0; k < local.size(); ++k) {
     local_jets.push_back(jet(local[k], model::kParameterCount + k));
   }
-  const auto jets = predict_with<Jet>(*model::Parameters<Jet>::create(values), test, protocol, local_jets);
+  const auto inputs = inputs_of<Jet>(*model::Parameters<Jet>::create(values), local_jets, effects_, free_);
+  if (!inputs) return tl::unexpected(inputs.error());
+  const auto jets = predict_with<Jet>(*inputs, test_, protocol_);
   if (!jets) return tl::unexpected(jets.error());
   Linearisation result;
   result.jacobian.resize(static_cast<Eigen::Index>(jets->size()), columns);
@@ -65,6 +96,8 @@ tl::expected<Linearisation, PredictionFailure> linearise_with(const model::Param
   }
   return result;
 }
+
+namespace {
 
 PathPoint path_point(const model::Law<double>& law, double time, std::size_t row,
                      const model::State<double>& state, double void_ratio_at_start,
@@ -78,10 +111,33 @@ PathPoint path_point(const model::Law<double>& law, double time, std::size_t row
           law.overconsolidation_ratio(state)};
 }
 
+/// What a test lacks that an effect needs; nothing where it has all.
+std::optional<std::string> lacking_for(const effects::Effect& effect, const datasets::OedometerTest& test) {
+  switch (effect.need) {
+    case effects::Need::diameter:
+      if (!test.diameter) return "diameter_mm";
+      break;
+    case effects::Need::temperature: {
+      const auto read = [](const datasets::OedometerRow& row) { return row.temperature.has_value(); };
+      if (std::none_of(test.record.rows.begin(), test.record.rows.end(), read)) {
+        return "a column temperature_C in its data";
+      }
+      break;
+    }
+    case effects::Need::nothing:
+      break;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-OedometerExperiment::OedometerExperiment(datasets::OedometerTest test)
-    : test_(std::move(test)), protocol_(make_protocol(test_)) {
+OedometerExperiment::OedometerExperiment(datasets::OedometerTest test, effects::Values<double> effects,
+                                         std::vector<effects::ParameterRef> free)
+    : test_(std::move(test)),
+      protocol_(make_protocol(test_)),
+      effects_(std::move(effects)),
+      free_(std::move(free)) {
   if (protocol_.values.empty()) {
     throw std::invalid_argument(test_.name +
                                 ": no reading is left to be compared behind the one it starts from");
@@ -89,6 +145,17 @@ OedometerExperiment::OedometerExperiment(datasets::OedometerTest test)
   for (const ComparedValue& value : protocol_.values) {
     measured_.push_back(value.measured);
     noise_.push_back(value.noise);
+  }
+  for (const auto& one : effects_.chosen()) {
+    if (const auto lacking = lacking_for(*one.effect, test_)) {
+      throw std::invalid_argument(
+          fmt::format("{}: the effect {} needs {}", test_.name, one.effect->name, *lacking));
+    }
+  }
+  for (const effects::ParameterRef& parameter : free_) {
+    if (!effects_.has(*parameter.effect)) {
+      throw std::invalid_argument(fmt::format("{} is free, but that effect is off", parameter.name()));
+    }
   }
 }
 
@@ -137,24 +204,38 @@ std::vector<LocalQuantity> OedometerExperiment::locals() const {
   if (test_.initial_ocr && test_.free_ocr.moves) {
     result.push_back({"OCR", *test_.initial_ocr, 0.05, 100.0, true, test_.free_ocr.std_error});
   }
+  for (const effects::ParameterRef& parameter : free_) {
+    const effects::EffectParameter& info = parameter.info();
+    result.push_back({parameter.name(), effects_[parameter], info.lower_si(), info.upper_si(),
+                      info.lower > 0.0, std::nullopt, parameter});
+  }
   return result;
+}
+
+tl::expected<effects::Values<double>, PredictionFailure> OedometerExperiment::effects_at(
+    std::span<const double> local) const {
+  auto values = effects_.with(std::span(free_), local.subspan(local.size() - free_.size()));
+  if (!values) return tl::unexpected(PredictionFailure{values.error().message()});
+  return *std::move(values);
 }
 
 tl::expected<Values, PredictionFailure> OedometerExperiment::predict(
     const model::Parameters<double>& parameters, std::span<const double> local) const {
-  return predict_with<double>(parameters, test_, protocol_, local);
+  const auto inputs = inputs_of<double>(parameters, local, effects_, free_);
+  if (!inputs) return tl::unexpected(inputs.error());
+  return predict_with<double>(*inputs, test_, protocol_);
 }
 
 tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise(
     const model::Parameters<double>& parameters, std::span<const double> local,
     const Eigen::MatrixXd& directions) const {
-  if (directions.cols() <= 4) return linearise_with<4>(parameters, test_, protocol_, local, directions);
-  if (directions.cols() <= 8) return linearise_with<8>(parameters, test_, protocol_, local, directions);
+  if (directions.cols() <= 4) return linearise_with<4>(parameters, local, directions);
+  if (directions.cols() <= 8) return linearise_with<8>(parameters, local, directions);
   // in blocks of eight
   Linearisation result;
   for (Eigen::Index first = 0; first < directions.cols(); first += 8) {
     const Eigen::Index count = std::min<Eigen::Index>(8, directions.cols() - first);
-    auto part = linearise_with<8>(parameters, test_, protocol_, local, directions.middleCols(first, count));
+    auto part = linearise_with<8>(parameters, local, directions.middleCols(first, count));
     if (!part) return tl::unexpected(part.error());
     if (first == 0) result.jacobian.resize(part->jacobian.rows(), directions.cols());
     result.jacobian.middleCols(first, count) = part->jacobian;
@@ -165,8 +246,14 @@ tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise(
 
 tl::expected<std::vector<PathPoint>, PredictionFailure> OedometerExperiment::path(
     const model::Parameters<double>& parameters, std::span<const double> local, Route route) const {
+  const auto inputs = inputs_of<double>(parameters, local, effects_, free_);
+  if (!inputs) return tl::unexpected(inputs.error());
+  if (!inputs->effects.empty()) {
+    return path_with_effects(parameters, inputs->effects, test_, protocol_, inputs->start, route);
+  }
   const model::Law<double> law(parameters);
-  const auto start = detail::initial_state<double, model::Fabric::omega>(law, test_, protocol_.start, local);
+  const auto start = detail::initial_state<double, model::Fabric::omega>(
+      law, test_, protocol_.start, std::span<const double>(inputs->start));
   if (!start) return tl::unexpected(start.error());
   std::vector<PathPoint> points;
   const auto add = [&](double time, std::size_t row, const model::State<double>& state) {

@@ -2,32 +2,20 @@
 // An oedometer test: what the apparatus did goes in, what it read comes out.
 #pragma once
 
+#include "effects/values.hpp"
 #include "experiments/experiment.hpp"
 #include "experiments/oedometer_protocol.hpp"
+#include "experiments/path_point.hpp"
 
 namespace isotach::experiments {
 
-/// A point of a test as the model goes through it. Compression positive.
-struct PathPoint {
-  double time;          ///< s
-  std::size_t row;      ///< of the record; kNoRow at the start, if no reading is the start
-  double axial_stress;  ///< Pa
-  double axial_strain;  ///< engineering (-)
-  double void_ratio;    ///< the law's (-)
-  double K0;            ///< radial over axial effective stress (-)
-  double ocr;           ///< p_B/p_B+ (-)
-};
-
-/// Which integrator makes a path.
-enum class Route {
-  fellin_ostermann,  ///< the one that fits use
-  cvode              ///< the reference
-};
-
 class OedometerExperiment final : public Experiment {
  public:
-  /// std::invalid_argument where nothing is left to be compared.
-  explicit OedometerExperiment(datasets::OedometerTest test);
+  /// `effects` are on, those of other tests' kinds too, which do nothing here; of the parameters `free` the
+  /// values are inputs. std::invalid_argument where nothing is left to be compared, where an effect needs
+  /// what the test does not have, or where a parameter is free whose effect is off.
+  explicit OedometerExperiment(datasets::OedometerTest test, effects::Values<double> effects = {},
+                               std::vector<effects::ParameterRef> free = {});
 
   [[nodiscard]] const std::string& name() const override { return test_.name; }
   [[nodiscard]] bool held_out() const override { return test_.hold_out; }
@@ -35,7 +23,7 @@ class OedometerExperiment final : public Experiment {
   [[nodiscard]] std::string_view quantity() const override;
   [[nodiscard]] const Values& noise() const override { return noise_; }
   [[nodiscard]] std::vector<Channel> channels() const override;
-  /// K0 and OCR of the start, where the study lets them move.
+  /// K0 and OCR of the start, where the study lets them move, then the effects' free parameters.
   [[nodiscard]] std::vector<LocalQuantity> locals() const override;
   [[nodiscard]] tl::expected<Values, PredictionFailure> predict(const model::Parameters<double>& parameters,
                                                                 std::span<const double> local) const override;
@@ -45,6 +33,11 @@ class OedometerExperiment final : public Experiment {
       const Eigen::MatrixXd& directions) const override;
 
   [[nodiscard]] const datasets::OedometerTest& test() const { return test_; }
+  /// The effects that are on, as given; and with the free parameters of `local`.
+  [[nodiscard]] const effects::Values<double>& effects() const { return effects_; }
+  [[nodiscard]] tl::expected<effects::Values<double>, PredictionFailure> effects_at(
+      std::span<const double> local) const;
+  [[nodiscard]] const std::vector<effects::ParameterRef>& free_effects() const { return free_; }
   [[nodiscard]] const OedometerProtocol& protocol() const { return protocol_; }
   [[nodiscard]] const std::vector<ComparedValue>& values() const { return protocol_.values; }
   /// The reading behind a value.
@@ -62,8 +55,15 @@ class OedometerExperiment final : public Experiment {
   [[nodiscard]] Values values_of(const std::vector<PathPoint>& path) const;
 
  private:
+  template <int Width>
+  [[nodiscard]] tl::expected<Linearisation, PredictionFailure> linearise_with(
+      const model::Parameters<double>& parameters, std::span<const double> local,
+      const Eigen::MatrixXd& directions) const;
+
   datasets::OedometerTest test_;
   OedometerProtocol protocol_;
+  effects::Values<double> effects_;
+  std::vector<effects::ParameterRef> free_;
   Values measured_;
   Values noise_;
 };

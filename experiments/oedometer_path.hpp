@@ -31,11 +31,29 @@ using AxialState = model::State<S, model::kAxial, K>;
                       begin + drive.duration, line, failure.message())};
 }
 
+/// Nothing that an effect would make of the start.
+struct StartAsRead {
+  /// The specimen's axial stress (Pa) of K0 and the one read.
+  template <class S>
+  [[nodiscard]] double axial_stress(const S&, double read) const {
+    return read;
+  }
+  /// Sets what the state has beyond stress and void ratio.
+  template <class State>
+  void prepare(State&) const {}
+  /// p_B of the law (Pa) where that of the specimen is given.
+  template <class S>
+  [[nodiscard]] S law_pressure(const S& p_B) const {
+    return p_B;
+  }
+};
+
 /// The state that the law starts from. `local` holds K0 and OCR as far as they move, in that order.
-template <class S, model::Fabric K>
+/// `alteration` is what effects make of it, as StartAsRead.
+template <class S, model::Fabric K, class Alteration = StartAsRead>
 [[nodiscard]] tl::expected<AxialState<S, K>, PredictionFailure> initial_state(
     const model::Law<S>& law, const datasets::OedometerTest& test, const OedometerStart& start,
-    std::span<const S> local) {
+    std::span<const S> local, const Alteration& alteration = {}) {
   std::size_t next = 0;
   S K0(test.initial_K0);
   if (test.free_K0.moves) {
@@ -47,10 +65,12 @@ template <class S, model::Fabric K>
     K0 = steady->K0;
   }
   AxialState<S, K> state;
-  state.stress[0] = S(-start.axial_stress);
-  state.stress[1] = K0 * (-start.axial_stress * std::numbers::sqrt2);
+  const auto axial_stress = alteration.axial_stress(K0, start.axial_stress);
+  state.stress[0] = S(-axial_stress);
+  state.stress[1] = K0 * (-axial_stress * std::numbers::sqrt2);
   state.void_ratio = S(start.void_ratio);
   if constexpr (K == model::Fabric::omega) state.omega.setConstant(S(0.0));
+  alteration.prepare(state);
   if (!law.in_domain(state)) {
     return tl::unexpected(PredictionFailure{
         fmt::format("{}: the start (axial stress {:.4g} kPa, K0 {:.4g}, void ratio {:.4g}) is outside of the "
@@ -59,7 +79,8 @@ template <class S, model::Fabric K>
   }
   if (test.initial_ocr) {
     const S ocr = test.free_ocr.moves ? local[next] : S(*test.initial_ocr);
-    state.void_ratio = law.void_ratio_at(S(ocr * law.measures(state).equivalent_pressure));
+    const S p_B = ocr * law.measures(state).equivalent_pressure;
+    state.void_ratio = law.void_ratio_at(S(alteration.law_pressure(p_B)));
   }
   return state;
 }
@@ -99,38 +120,61 @@ template <model::Fabric K, class S, class Visit>
   return std::nullopt;
 }
 
+/// What the instrument reads of a specimen without effects: the law's own stress and strain.
+template <class S>
+struct SoilReading {
+  S stress;  ///< Pa, tension positive
+  S void_ratio;
+  const S* void_ratio_at_start;
+  const OedometerStart* start;
+
+  [[nodiscard]] S axial_stress() const { return -stress; }
+  [[nodiscard]] S axial_strain() const { return axial_strain_of(void_ratio, *void_ratio_at_start, *start); }
+};
+
+/// The compared values, out of what is read at the end of every step: `follow(visit)` calls
+/// `visit(step, reading)` for each and returns the failure, if there is one.
+template <class S, class Reading, class Follow>
+[[nodiscard]] tl::expected<std::vector<S>, PredictionFailure> compared_values(
+    const OedometerProtocol& protocol, const Reading& at_start, Follow&& follow) {
+  using std::log;
+  std::vector<S> values;
+  values.reserve(protocol.values.size());
+  S origin(0.0);
+  Reading last = at_start;
+  auto failure = follow([&](std::size_t step, const Reading& reading) {
+    if (values.size() == protocol.values.size()) return;
+    const ComparedValue& value = protocol.values[values.size()];
+    if (value.kind == ValueKind::log_stress) {
+      if (value.step == step) values.push_back(log(reading.axial_stress()));
+    } else {
+      if (value.strain_origin == kNoRow) {
+        origin = S(0.0);
+      } else if (step == value.strain_origin + 1) {
+        origin = last.axial_strain();
+      }
+      if (value.step == step) values.push_back(reading.axial_strain() - origin);
+    }
+    last = reading;
+  });
+  if (failure) return tl::unexpected(std::move(*failure));
+  return values;
+}
+
 /// The compared values, with the scalar of the parameters.
 template <class S, model::Fabric K>
 [[nodiscard]] tl::expected<std::vector<S>, PredictionFailure> predict_values(
     const model::Law<S>& law, const datasets::OedometerTest& test, const OedometerProtocol& protocol,
     std::span<const S> local) {
-  using std::log;
   const auto start = initial_state<S, K>(law, test, protocol.start, local);
   if (!start) return tl::unexpected(start.error());
-  std::vector<S> values;
-  values.reserve(protocol.values.size());
-  S origin(0.0);
-  S last_void_ratio = start->void_ratio;
-  auto failure = follow<K>(law, test, protocol, *start, [&](std::size_t step, double, const auto& state) {
-    if (values.size() == protocol.values.size()) return;
-    const ComparedValue& value = protocol.values[values.size()];
-    const auto strain = [&](const S& void_ratio) {
-      return axial_strain_of(void_ratio, start->void_ratio, protocol.start);
-    };
-    if (value.kind == ValueKind::log_stress) {
-      if (value.step == step) values.push_back(log(-state.stress[0]));
-    } else {
-      if (value.strain_origin == kNoRow) {
-        origin = S(0.0);
-      } else if (step == value.strain_origin + 1) {
-        origin = strain(last_void_ratio);
-      }
-      if (value.step == step) values.push_back(strain(state.void_ratio) - origin);
-    }
-    last_void_ratio = state.void_ratio;
+  const auto reading = [&](const auto& state) {
+    return SoilReading<S>{state.stress[0], state.void_ratio, &start->void_ratio, &protocol.start};
+  };
+  return compared_values<S>(protocol, reading(*start), [&](auto&& visit) {
+    return follow<K>(law, test, protocol, *start,
+                     [&](std::size_t step, double, const auto& state) { visit(step, reading(state)); });
   });
-  if (failure) return tl::unexpected(std::move(*failure));
-  return values;
 }
 
 }  // namespace isotach::experiments::detail

@@ -44,6 +44,38 @@ double slope_of(const std::vector<OedometerRow>& rows, const Stretch& stretch) {
   return strain != 0.0 ? std::abs(std::log(last.axial_stress / first.axial_stress) / strain) : 0.0;
 }
 
+/// +1 where a stage loads, -1 where it unloads, `before` where it does neither.
+double direction_of(Stage stage, double before) {
+  if (stage == Stage::load) return 1.0;
+  return stage == Stage::unload ? -1.0 : before;
+}
+
+/// Temperatures at the start and the end of each step of a protocol.
+std::vector<double> temperatures_of(const OedometerProtocol& protocol,
+                                    const std::vector<OedometerRow>& rows) {
+  std::vector<const OedometerRow*> read;
+  for (const OedometerRow& row : rows) {
+    if (row.temperature) read.push_back(&row);
+  }
+  if (read.empty()) return {};
+  const auto at = [&](double time) {
+    const auto after =
+        std::find_if(read.begin(), read.end(), [&](const auto* row) { return row->time >= time; });
+    if (after == read.begin()) return *read.front()->temperature;
+    if (after == read.end()) return *read.back()->temperature;
+    const OedometerRow& a = **(after - 1);
+    const OedometerRow& b = **after;
+    return *a.temperature + (*b.temperature - *a.temperature) * (time - a.time) / (b.time - a.time);
+  };
+  double time = protocol.start.time;
+  std::vector<double> temperatures{at(time)};
+  for (const DriveStep& step : protocol.steps) {
+    time += step.duration;
+    temperatures.push_back(at(time));
+  }
+  return temperatures;
+}
+
 std::optional<double> rate_of(double strain, double time) {
   if (!(strain > 0.0 && time > 0.0)) return std::nullopt;
   return strain / time;
@@ -68,8 +100,11 @@ OedometerProtocol strain_controlled(const OedometerTest& test) {
   double loading_time = 0.0;
   bool loaded = false;
   bool chain_begins = true;
+  double direction = 1.0;
   for (const Stretch& stretch : stretches_of(rows, first)) {
     const Stage stage = rows[stretch.first].stage;
+    direction = direction_of(stage, direction);
+    const bool held = stage == Stage::hold || stage == Stage::relax;
     const bool stress_held = stage == Stage::hold && !test.record.stages_deduced;
     double held_stress = 0.0;
     for (std::size_t i = stretch.first; i < stretch.end; ++i) {
@@ -83,7 +118,8 @@ OedometerProtocol strain_controlled(const OedometerTest& test) {
       const OedometerRow& row = rows[i];
       const double next_height = 1.0 - strain[i];
       const double increment = std::log(height / next_height);
-      protocol.steps.push_back({row.time - time, stress_held, stress_held ? held_stress : increment, i});
+      protocol.steps.push_back(
+          {row.time - time, stress_held, stress_held ? held_stress : increment, i, direction, held});
       if (stage == Stage::load && (!loaded || loading_time > 0.0)) {
         loaded = true;
         loading_strain += increment;
@@ -196,7 +232,8 @@ OedometerProtocol stress_controlled(const OedometerTest& test) {
       return share >= 1.0 ? step.load : old_stress + share * (step.load - old_stress);
     };
     const auto advance_to = [&](double when, std::size_t row) {
-      protocol.steps.push_back({when - time, true, stress_at(when), row});
+      protocol.steps.push_back({when - time, true, stress_at(when), row,
+                                step.stage == Stage::unload ? -1.0 : 1.0, time >= ramp_end});
       time = when;
     };
     for (std::size_t i = step.first; i < step.first + step.count; ++i) {
@@ -227,7 +264,10 @@ OedometerProtocol stress_controlled(const OedometerTest& test) {
 }  // namespace
 
 OedometerProtocol make_protocol(const OedometerTest& test) {
-  return test.record.control == datasets::Control::stress ? stress_controlled(test) : strain_controlled(test);
+  OedometerProtocol protocol =
+      test.record.control == datasets::Control::stress ? stress_controlled(test) : strain_controlled(test);
+  protocol.temperatures = temperatures_of(protocol, test.record.rows);
+  return protocol;
 }
 
 }  // namespace isotach::experiments

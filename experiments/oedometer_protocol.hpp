@@ -28,6 +28,8 @@ struct DriveStep {
   double amount;    ///< logarithmic axial strain increment (-), or axial stress at its end (Pa); compression
                     ///< positive
   std::size_t row;  ///< of the record; kNoRow where it only brings the load on
+  double direction = 1.0;  ///< +1 loading, -1 unloading: the one last commanded
+  bool held = false;       ///< strain, or stress once it is on, is kept as it is
 };
 
 /// What a value is.
@@ -60,6 +62,9 @@ struct OedometerProtocol {
   std::vector<DriveStep> steps;
   std::vector<ComparedValue> values;
   std::vector<PrimaryConsolidation> consolidation;  ///< of a stress-controlled test, a step each
+  /// Temperature (deg C) at the start, then at the end of each step, between readings by interpolation; empty
+  /// where the file has none.
+  std::vector<double> temperatures;
   /// Axial strain rate (1/s, logarithmic, > 0) of the first loading stage, or load step, from its ends;
   /// nothing where the test has no loading.
   std::optional<double> first_loading_rate;
