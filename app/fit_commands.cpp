@@ -44,6 +44,7 @@ void require_parameters(const datasets::Study& study, const std::vector<model::P
 void require_more_than_gauged(const datasets::Study& study) {
   const auto& list = study.fit.oedometer;
   const auto is_D_r = [](model::ParameterId id) { return id == model::ParameterId::D_r; };
+  if (!study.fit.oedometer_effects.empty()) return;
   if (study.fit.gauge == datasets::Gauge::none || !std::all_of(list.begin(), list.end(), is_D_r)) return;
   throw datasets::InputError(datasets::FilePlace{study.file}, "[fit] oedometer",
                              "D_r alone, which the gauge sets",
@@ -84,7 +85,7 @@ int fit_oedometer(const CommonOptions& options) {
   const Run run("fit-oedometer", options.input);
   const datasets::Study study = datasets::read_study(options.input, options.read_options());
   require_fitted(study, study.oedometer_tests, "[[oedometer]]");
-  require_parameters(study, study.fit.oedometer, "[fit] oedometer");
+  if (study.fit.oedometer_effects.empty()) require_parameters(study, study.fit.oedometer, "[fit] oedometer");
   require_more_than_gauged(study);
   reports::OutputDirectory output(options.out);
   reports::Progress progress("fit-oedometer", options.quiet);
@@ -143,7 +144,7 @@ int calibrate(const CommonOptions& options, const JournalLine& journal_line) {
   const datasets::Study study = datasets::read_study(options.input, options.read_options());
   require_fitted(study, study.oedometer_tests, "[[oedometer]]");
   require_fitted(study, study.slump_tests, "[[slump]]");
-  require_parameters(study, study.fit.oedometer, "[fit] oedometer");
+  if (study.fit.oedometer_effects.empty()) require_parameters(study, study.fit.oedometer, "[fit] oedometer");
   require_more_than_gauged(study);
   require_parameters(study, study.fit.slump, "[fit] slump");
   reports::OutputDirectory output(options.out);

@@ -33,6 +33,12 @@ tl::expected<GaugeChoice, FitFailure> choose_gauge(const datasets::Study& study,
                  "give [fit] reference_rate_per_s"});
 }
 
+std::vector<effects::ParameterRef> parameters_of(const std::vector<datasets::FreeEffect>& free) {
+  std::vector<effects::ParameterRef> parameters;
+  for (const datasets::FreeEffect& one : free) parameters.push_back(one.parameter);
+  return parameters;
+}
+
 /// The first of the candidates from which the tests can be predicted.
 tl::expected<std::vector<double>, FitFailure> first_that_predicts(
     const Problem& problem, const std::vector<std::vector<double>>& candidates) {
@@ -137,11 +143,20 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
                                                      const model::Parameters<double>& start,
                                                      const std::vector<model::ParameterId>& wanted,
                                                      const OedometerFitOptions& options) {
+  return fit_oedometer(study, start, wanted, {study.effects, study.fit.oedometer_effects}, options);
+}
+
+tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& study,
+                                                     const model::Parameters<double>& start,
+                                                     const std::vector<model::ParameterId>& wanted,
+                                                     const FittedEffects& effects,
+                                                     const OedometerFitOptions& options) {
   OedometerFit fit;
   Experiments experiments;
+  const auto free = parameters_of(effects.free);
   for (const auto& test : study.oedometer_tests) {
     try {
-      fit.experiments.push_back(std::make_shared<experiments::OedometerExperiment>(test));
+      fit.experiments.push_back(std::make_shared<experiments::OedometerExperiment>(test, effects.on, free));
     } catch (const std::invalid_argument& error) {
       return tl::unexpected(FitFailure{error.what()});
     }
@@ -151,8 +166,8 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
   if (!gauge) return tl::unexpected(gauge.error());
   fit.reference_rate = gauge->reference_rate;
 
-  Problem problem(experiments,
-                  Parametrisation(start, wanted, {study.fit.bounds, study.fit.priors}, *gauge, experiments),
+  const CoordinateSettings settings{study.fit.bounds, study.fit.priors, effects.free};
+  Problem problem(experiments, Parametrisation(start, wanted, settings, *gauge, experiments),
                   options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
   if (parametrisation.size() == 0) {
@@ -211,6 +226,7 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     fit.locals.push_back(parametrisation.local_at(result.main.coordinates, i));
   }
+  fit.effects = *fit.experiments.front()->effects_at(fit.locals.front());
 
   const auto evaluation = evaluate_all(experiments, *result.parameters, fit.locals, options.threads);
   if (!evaluation) {
@@ -222,7 +238,8 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
   if (options.depth == Depth::assessment) {
     fit.assessment.emplace();
     fit.assessment->multi_start = std::move(other_starts);
-    if (auto failure = assess(study, problem, wanted, options, fit)) return tl::unexpected(*failure);
+    if (auto failure = assess(study, settings, problem, wanted, options, fit))
+      return tl::unexpected(*failure);
   }
   for (std::size_t k = 0; k < result.coordinates.size(); ++k) {
     if (!parametrisation.at_bound(result.main.coordinates, k)) continue;

@@ -40,6 +40,7 @@ struct OedometerFit {
   FitResult result;
   OedometerExperiments experiments;         ///< all tests of the study
   std::vector<std::vector<double>> locals;  ///< of each experiment, at the answer
+  effects::Values<double> effects;          ///< those that are on, at the answer
   Evaluation evaluation;                    ///< of all, at the answer, by the noise that the study states
   double reference_rate = 0.0;              ///< axial strain rate of the gauge (1/s); 0 where none was needed
   std::optional<StartValues> start;         ///< constructions on the data, where the fit started from them
@@ -65,15 +66,29 @@ struct OedometerFitOptions {
   std::function<void(double, const std::string&)> progress;
 };
 
+/// The effects that a fit's predictions have, and those of their parameters that it moves.
+struct FittedEffects {
+  effects::Values<double> on;              ///< with the values that the fit starts from
+  std::vector<datasets::FreeEffect> free;  ///< of effects that are on
+};
+
 /// Fits `wanted` from `start` to the tests that are not held out: with Ceres, by the noise that the study
-/// states; then twice more with residuals whitened by the noise that is estimated from them.
+/// states; then twice more with residuals whitened by the noise that is estimated from them. `effects` take
+/// the place of the study's own.
+[[nodiscard]] tl::expected<OedometerFit, FitFailure> fit_oedometer(
+    const datasets::Study& study, const model::Parameters<double>& start,
+    const std::vector<model::ParameterId>& wanted, const FittedEffects& effects,
+    const OedometerFitOptions& options);
+
+/// The same with the study's effects.
 [[nodiscard]] tl::expected<OedometerFit, FitFailure> fit_oedometer(
     const datasets::Study& study, const model::Parameters<double>& start,
     const std::vector<model::ParameterId>& wanted, const OedometerFitOptions& options);
 
 /// Works out the rest of fit.assessment, whose multi-start is known, and what follows from it for verdicts,
 /// warnings and the check by NLopt.
-[[nodiscard]] std::optional<FitFailure> assess(const datasets::Study& study, const Problem& problem,
+[[nodiscard]] std::optional<FitFailure> assess(const datasets::Study& study,
+                                               const CoordinateSettings& settings, const Problem& problem,
                                                const std::vector<model::ParameterId>& wanted,
                                                const OedometerFitOptions& options, OedometerFit& fit);
 

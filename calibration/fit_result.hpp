@@ -29,15 +29,16 @@ struct ParameterEstimate {
   std::string words{};  ///< why that verdict, in a sentence without its end; may be empty
 };
 
-/// A quantity of one test's start that the fit moved.
+/// A quantity of one test's start, or a parameter of an effect, that the fit moved. SI.
 struct LocalEstimate {
-  std::string name;  ///< "crs-1: K0"
+  std::string name;  ///< "crs-1: K0", "ring_friction.mu"
   double value = 0.0;
   double std_error = 0.0;
   double ci95_lower = 0.0;
   double ci95_upper = 0.0;
   Verdict verdict = Verdict::fixed;
   std::string words{};
+  std::optional<effects::ParameterRef> effect{};  ///< nothing: of a test's start
 };
 
 /// How a test is met.
@@ -69,7 +70,7 @@ struct Uncertainty {
 struct FitResult {
   std::optional<model::Parameters<double>> parameters;
   std::vector<ParameterEstimate> estimates;    ///< all parameters, in the order of ParameterId
-  std::vector<LocalEstimate> local_estimates;  ///< of tests' starts, as far as they moved
+  std::vector<LocalEstimate> local_estimates;  ///< of effects and of tests' starts, as far as they moved
   Eigen::MatrixXd correlation;                 ///< of the coordinates
   Uncertainty uncertainty;
   std::vector<TestSummary> tests;        ///< all, held-out ones included

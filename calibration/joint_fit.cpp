@@ -81,7 +81,7 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
     slumps.push_back(
         std::make_shared<experiments::SlumpExperiment>(test, simulate, slump.simulation_error.error));
   }
-  const CoordinateSettings settings{study.fit.bounds, study.fit.priors};
+  const CoordinateSettings settings{study.fit.bounds, study.fit.priors, study.fit.oedometer_effects};
   const Problem simulated(slumps,
                           Parametrisation(start, wanted, {study.fit.bounds, {}}, oedometer.result.gauge),
                           options.threads);

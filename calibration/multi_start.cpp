@@ -26,7 +26,7 @@ MultiStart multi_start(const Problem& problem, const std::vector<double>& first,
   for (const auto& unit : latin_hypercube(count, first.size(), random)) {
     std::vector<double> x = first;
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const double range = coordinates[k].upper - coordinates[k].lower;
+      const double range = coordinates[k].search_width(first[k]);
       const double half = coordinates[k].logarithmic ? options.spread : 0.5 * options.spread * range;
       const double lower = std::max(coordinates[k].lower, first[k] - half);
       const double upper = std::min(coordinates[k].upper, first[k] + half);

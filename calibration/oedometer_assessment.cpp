@@ -35,7 +35,7 @@ GlobalOptions box_about(const Problem& problem, const std::vector<double>& x, un
   options.seed = seed;
   for (std::size_t k = 0; k < x.size(); ++k) {
     const Coordinate& coordinate = problem.parametrisation().coordinates()[k];
-    const double half = coordinate.logarithmic ? std::log(kFactor) : coordinate.upper - coordinate.lower;
+    const double half = coordinate.logarithmic ? std::log(kFactor) : coordinate.search_width(x[k]);
     options.lower.push_back(std::max(coordinate.lower, x[k] - half));
     options.upper.push_back(std::min(coordinate.upper, x[k] + half));
   }
@@ -65,8 +65,8 @@ IntegratorCheck compare_integrators(const experiments::OedometerExperiment& expe
 
 }  // namespace
 
-std::optional<FitFailure> assess(const datasets::Study& study, const Problem& problem,
-                                 const std::vector<model::ParameterId>& wanted,
+std::optional<FitFailure> assess(const datasets::Study& study, const CoordinateSettings& settings,
+                                 const Problem& problem, const std::vector<model::ParameterId>& wanted,
                                  const OedometerFitOptions& options, OedometerFit& fit) {
   FitResult& result = fit.result;
   const std::vector<double>& x = result.main.coordinates;
@@ -142,8 +142,8 @@ std::optional<FitFailure> assess(const datasets::Study& study, const Problem& pr
   }
 
   report(0.8, "other data and inputs");
-  const RefitBase base{study,  fit.experiments, problem, x, fit.noise.weights, result.uncertainty,
-                       wanted, options.threads, quiet};
+  const RefitBase base{settings,           fit.experiments, problem,         x,    fit.noise.weights,
+                       result.uncertainty, wanted,          options.threads, quiet};
   assessment.without_test = leave_one_out(base);
   assessment.shifted_inputs = shift_inputs(base);
   if (quiet.stopped()) return FitFailure{"interrupted", true};

@@ -39,6 +39,30 @@ CoordinatePrior prior_of(const datasets::Prior& prior, bool logarithmic) {
   return {std::log(prior.mean), prior.std_error / prior.mean};
 }
 
+/// The coordinate of a local quantity within bounds of the quantity.
+Coordinate coordinate_of(const experiments::LocalQuantity& local, std::string name,
+                         const datasets::Bounds& bounds) {
+  Coordinate coordinate;
+  coordinate.name = std::move(name);
+  coordinate.logarithmic = local.logarithmic;
+  if (local.effect && !local.logarithmic) coordinate.scale = local.effect->info().typical_si();
+  coordinate.start = coordinate.of_quantity(std::clamp(local.value, bounds.lower, bounds.upper));
+  coordinate.lower = coordinate.of_quantity(bounds.lower);
+  coordinate.upper = coordinate.of_quantity(bounds.upper);
+  if (local.std_error) {
+    coordinate.prior = CoordinatePrior{coordinate.of_quantity(local.value), *local.std_error};
+  }
+  return coordinate;
+}
+
+/// Bounds of an effect's parameter: the study's, else the catalogue's.
+datasets::Bounds bounds_of(const CoordinateSettings& settings, const experiments::LocalQuantity& local) {
+  for (const datasets::FreeEffect& free : settings.effects) {
+    if (free.parameter == *local.effect && free.bounds) return *free.bounds;
+  }
+  return {local.lower, local.upper};
+}
+
 }  // namespace
 
 Parametrisation::Parametrisation(const model::Parameters<double>& start,
@@ -66,28 +90,41 @@ Parametrisation::Parametrisation(const model::Parameters<double>& start,
     free_.push_back(id);
     coordinates_.push_back(std::move(coordinate));
   }
+  for (const auto& experiment : experiments) locals_.push_back(experiment->locals());
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    locals_.push_back(experiments[i]->local_values());
     if (experiments[i]->held_out()) continue;
-    const auto locals = experiments[i]->locals();
-    for (std::size_t k = 0; k < locals.size(); ++k) {
-      const auto in_coordinate = [&](double value) {
-        return locals[k].logarithmic ? std::log(value) : value;
-      };
-      Coordinate coordinate;
-      coordinate.name = experiments[i]->name() + ": " + locals[k].name;
-      coordinate.experiment = i;
-      coordinate.local = k;
-      coordinate.logarithmic = locals[k].logarithmic;
-      coordinate.start = in_coordinate(std::clamp(locals[k].value, locals[k].lower, locals[k].upper));
-      coordinate.lower = in_coordinate(locals[k].lower);
-      coordinate.upper = in_coordinate(locals[k].upper);
-      if (locals[k].std_error) {
-        coordinate.prior = CoordinatePrior{in_coordinate(locals[k].value), *locals[k].std_error};
-      }
+    for (const experiments::LocalQuantity& local : locals_[i]) {
+      if (!local.effect || find(*local.effect)) continue;
+      Coordinate coordinate = coordinate_of(local, local.name, bounds_of(settings, local));
+      coordinate.effect = local.effect;
       coordinates_.push_back(std::move(coordinate));
     }
   }
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    if (experiments[i]->held_out()) continue;
+    for (std::size_t k = 0; k < locals_[i].size(); ++k) {
+      const experiments::LocalQuantity& local = locals_[i][k];
+      if (local.effect) continue;
+      Coordinate coordinate =
+          coordinate_of(local, experiments[i]->name() + ": " + local.name, {local.lower, local.upper});
+      coordinate.experiment = i;
+      coordinate.local = k;
+      coordinates_.push_back(std::move(coordinate));
+    }
+  }
+}
+
+std::optional<std::size_t> Parametrisation::find(const effects::ParameterRef& effect) const {
+  for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
+    if (coordinates_[k].effect == effect) return k;
+  }
+  return std::nullopt;
+}
+
+double Coordinate::search_width(double x) const {
+  constexpr double kTimes = 6.0;
+  if (!effect || logarithmic) return upper - lower;
+  return std::min(upper - lower, kTimes * std::max(1.0, std::abs(x)));
 }
 
 namespace {
@@ -127,13 +164,30 @@ std::vector<double> Parametrisation::inside(std::vector<double> x) const {
 
 std::vector<double> Parametrisation::local_at(const std::vector<double>& x, std::size_t experiment) const {
   if (experiment >= locals_.size()) return {};
-  std::vector<double> values = locals_[experiment];
+  std::vector<double> values;
+  for (const experiments::LocalQuantity& local : locals_[experiment]) values.push_back(local.value);
   for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
-    if (coordinates_[k].experiment == experiment) {
+    if (!coordinates_[k].effect && coordinates_[k].experiment == experiment) {
       values[coordinates_[k].local] = coordinates_[k].quantity(x[k]);
     }
   }
+  set_effects(locals_[experiment], x, values);
   return values;
+}
+
+std::vector<double> Parametrisation::local_of(const experiments::Experiment& experiment,
+                                              const std::vector<double>& x) const {
+  std::vector<double> values = experiment.local_values();
+  set_effects(experiment.locals(), x, values);
+  return values;
+}
+
+void Parametrisation::set_effects(const std::vector<experiments::LocalQuantity>& locals,
+                                  const std::vector<double>& x, std::vector<double>& values) const {
+  for (std::size_t i = 0; i < locals.size(); ++i) {
+    const auto k = locals[i].effect ? find(*locals[i].effect) : std::nullopt;
+    if (k) values[i] = coordinates_[*k].quantity(x[*k]);
+  }
 }
 
 tl::expected<Parametrisation::Tangent, std::string> Parametrisation::tangent(
@@ -163,9 +217,15 @@ Eigen::MatrixXd Parametrisation::directions(const Tangent& tangent, const std::v
   result.topRows(static_cast<Eigen::Index>(model::kParameterCount)) = tangent.derivative;
   for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
     const Coordinate& coordinate = coordinates_[k];
-    if (coordinate.experiment != experiment) continue;
-    result(static_cast<Eigen::Index>(model::kParameterCount + coordinate.local),
-           static_cast<Eigen::Index>(k)) = coordinate.logarithmic ? coordinate.quantity(x[k]) : 1.0;
+    for (std::size_t i = 0; i < locals; ++i) {
+      const auto& effect = locals_[experiment][i].effect;
+      const bool same =
+          effect ? coordinate.effect == effect
+                 : !coordinate.effect && coordinate.experiment == experiment && coordinate.local == i;
+      if (!same) continue;
+      result(static_cast<Eigen::Index>(model::kParameterCount + i), static_cast<Eigen::Index>(k)) =
+          coordinate.slope(x[k]);
+    }
   }
   return result;
 }

@@ -28,37 +28,51 @@ struct CoordinatePrior {
   double std_error;
 };
 
-/// One coordinate: a material parameter, or a quantity of one test's start.
+/// One coordinate: a material parameter, one of an effect, or a quantity of one test's start.
 struct Coordinate {
-  std::string name;                      ///< "lambda", "crs-1: K0"
-  std::optional<model::ParameterId> id;  ///< of a material parameter
-  std::size_t experiment = 0;            ///< else: which of the experiments
-  std::size_t local = 0;                 ///< and which of its local quantities
-  bool logarithmic = false;              ///< the coordinate is the logarithm of the quantity
+  std::string name;                             ///< "lambda", "ring_friction.mu", "crs-1: K0"
+  std::optional<model::ParameterId> id;         ///< of a material parameter
+  std::optional<effects::ParameterRef> effect;  ///< of an effect's, which all experiments share
+  std::size_t experiment = 0;                   ///< else: which of the experiments
+  std::size_t local = 0;                        ///< and which of its local quantities
+  bool logarithmic = false;                     ///< the coordinate is the logarithm of the quantity
+  double scale = 1.0;  ///< else the coordinate times this is the quantity: an effect's typical value
   double start = 0.0;
   double lower = 0.0;
   double upper = 0.0;
   std::optional<CoordinatePrior> prior{};
 
   /// The quantity (SI) that a value of the coordinate stands for.
-  [[nodiscard]] double quantity(double x) const { return logarithmic ? std::exp(x) : x; }
+  [[nodiscard]] double quantity(double x) const { return logarithmic ? std::exp(x) : scale * x; }
+  /// The value of the coordinate that stands for a quantity (SI).
+  [[nodiscard]] double of_quantity(double quantity) const {
+    return logarithmic ? std::log(quantity) : quantity / scale;
+  }
+  /// d quantity/dx.
+  [[nodiscard]] double slope(double x) const { return logarithmic ? std::exp(x) : scale; }
+  /// Width about x in which searches from elsewhere look: that of the bounds, but for an effect, whose bounds
+  /// are those of the possible, some times its typical value or x.
+  [[nodiscard]] double search_width(double x) const;
 };
 
-/// What a study says of the material's coordinates, each in the order of ParameterId.
+/// What a study says of the coordinates; of the material's in the order of ParameterId.
 struct CoordinateSettings {
   std::array<std::optional<datasets::Bounds>, model::kParameterCount> bounds{};
   std::array<std::optional<datasets::Prior>, model::kParameterCount> priors{};
+  std::vector<datasets::FreeEffect> effects{};  ///< of which the bounds are read
 };
 
-/// Free quantities as coordinates: ln of positive ones, C_1 and K0 as they are.
+/// Free quantities as coordinates: ln of positive ones, C_1 and K0 as they are, an effect's that may be zero
+/// over its typical value.
 ///
 /// (e100, D_r) enter any prediction only through D_r (1+e100)^(-1/(lambda I_v)). Under Gauge::crs_rate D_r is
 /// therefore not a coordinate but the |D_vis| of steady oedometric compression at the reference rate, a
 /// function of lambda, kappa, phi_c and C_1; then OCR = 1 on that isotach and e100 is read off it.
 class Parametrisation {
  public:
-  /// `wanted` are the parameters a study wants moved; bounds in SI, defaults where absent. Local quantities
-  /// of those `experiments` that are not held out follow the material's coordinates.
+  /// `wanted` are the parameters a study wants moved; bounds in SI, defaults where absent. The effects' free
+  /// parameters of those `experiments` that are not held out follow the material's coordinates, each once,
+  /// then their local quantities.
   Parametrisation(const model::Parameters<double>& start, const std::vector<model::ParameterId>& wanted,
                   const CoordinateSettings& settings, const GaugeChoice& gauge,
                   const Experiments& experiments = {});
@@ -100,6 +114,10 @@ class Parametrisation {
 
   /// Local quantities of an experiment at x: the study's, where they are no coordinates.
   [[nodiscard]] std::vector<double> local_at(const std::vector<double>& x, std::size_t experiment) const;
+  /// The same of an experiment that need not be among those of this parametrisation: its own start, and the
+  /// effects' parameters at x.
+  [[nodiscard]] std::vector<double> local_of(const experiments::Experiment& experiment,
+                                             const std::vector<double>& x) const;
 
   /// The parameters at x and their derivatives: column k is d(parameters in SI)/dx_k.
   struct Tangent {
@@ -113,10 +131,14 @@ class Parametrisation {
                                            std::size_t experiment) const;
 
  private:
+  [[nodiscard]] std::optional<std::size_t> find(const effects::ParameterRef& effect) const;
+  void set_effects(const std::vector<experiments::LocalQuantity>& locals, const std::vector<double>& x,
+                   std::vector<double>& values) const;
+
   model::ParameterValues<double> base_;
   std::vector<Coordinate> coordinates_;
   std::vector<model::ParameterId> free_;
-  std::vector<std::vector<double>> locals_;  // of each experiment, as the study gives them
+  std::vector<std::vector<experiments::LocalQuantity>> locals_;  // of each experiment
   bool gauged_ = false;
   GaugeChoice gauge_;
 };

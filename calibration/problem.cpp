@@ -106,21 +106,16 @@ tl::expected<std::vector<experiments::Linearisation>, experiments::PredictionFai
   });
 }
 
-tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(
-    const std::vector<double>& x) const {
-  const auto all = predictions(x);
-  if (!all) return tl::unexpected(all.error());
-  Linearised result;
-  const auto rows = static_cast<Eigen::Index>(residual_count());
-  const auto columns = static_cast<Eigen::Index>(x.size());
+Linearised Problem::weighted(const std::vector<experiments::Linearisation>& predictions) const {
+  const Eigen::Index columns = predictions.empty() ? 0 : predictions.front().jacobian.cols();
   // residuals and derivatives are weighted alike, so they go together
-  Eigen::MatrixXd both(rows, columns + 1);
+  Eigen::MatrixXd both(static_cast<Eigen::Index>(value_count_), columns + 1);
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < fitted_.size(); ++i) {
     const auto count = static_cast<Eigen::Index>(fitted_[i]->measured().size());
     auto block = both.middleRows(row, count);
-    block.leftCols(columns) = (*all)[i].jacobian;
-    block.col(columns) = Eigen::Map<const Eigen::VectorXd>((*all)[i].values.data(), count) -
+    block.leftCols(columns) = predictions[i].jacobian;
+    block.col(columns) = Eigen::Map<const Eigen::VectorXd>(predictions[i].values.data(), count) -
                          Eigen::Map<const Eigen::VectorXd>(fitted_[i]->measured().data(), count);
     if (weights_.empty()) {
       block.array().colwise() /= Eigen::Map<const Eigen::ArrayXd>(fitted_[i]->noise().data(), count);
@@ -129,8 +124,17 @@ tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(
     }
     row += count;
   }
-  result.residuals = both.col(columns);
-  result.jacobian = both.leftCols(columns);
+  return {both.col(columns), both.leftCols(columns)};
+}
+
+tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(
+    const std::vector<double>& x) const {
+  const auto all = predictions(x);
+  if (!all) return tl::unexpected(all.error());
+  Linearised result = weighted(*all);
+  const auto rows = static_cast<Eigen::Index>(residual_count());
+  result.residuals.conservativeResize(rows);
+  result.jacobian.conservativeResize(rows, static_cast<Eigen::Index>(x.size()));
   append_priors(x, result.residuals, &result.jacobian);
   if (!result.jacobian.allFinite() || !result.residuals.allFinite()) {
     return tl::unexpected(

@@ -68,6 +68,9 @@ class Problem {
   /// Predictions of each fitted experiment with their derivatives by the coordinates, not weighted.
   [[nodiscard]] tl::expected<std::vector<experiments::Linearisation>, experiments::PredictionFailure>
   predictions(const std::vector<double>& x) const;
+  /// Residuals of predictions of each fitted experiment, and their derivatives, weighted as those of
+  /// linearise(); without priors.
+  [[nodiscard]] Linearised weighted(const std::vector<experiments::Linearisation>& predictions) const;
 
  private:
   void weigh(std::size_t fitted, Eigen::Ref<Eigen::MatrixXd> block) const;

@@ -29,7 +29,7 @@ Refit refit(const RefitBase& base, const Task& task) {
   result.what = task.what;
   const auto& fitted_coordinates = base.problem.parametrisation().coordinates();
   Problem problem(task.experiments,
-                  Parametrisation(task.start, base.wanted, {base.study.fit.bounds, base.study.fit.priors},
+                  Parametrisation(task.start, base.wanted, base.settings,
                                   base.problem.parametrisation().gauge(), task.experiments),
                   1);
   problem.set_weights(task.weights);
@@ -71,7 +71,8 @@ Refit refit(const RefitBase& base, const Task& task) {
   }
   experiments::Values scaled;
   if (task.predicted) {
-    const auto values = task.predicted->predict(*parameters, task.predicted->local_values());
+    const auto values = task.predicted->predict(
+        *parameters, problem.parametrisation().local_of(*task.predicted, found.coordinates));
     if (!values) {
       result.failure = values.error().message;
       return result;
@@ -98,7 +99,8 @@ std::optional<Task> changed(const RefitBase& base, std::string what,
   for (const auto& experiment : base.experiments) {
     datasets::OedometerTest test = experiment->test();
     any = change(test) || any;
-    task.experiments.push_back(std::make_shared<experiments::OedometerExperiment>(std::move(test)));
+    task.experiments.push_back(std::make_shared<experiments::OedometerExperiment>(
+        std::move(test), experiment->effects(), experiment->free_effects()));
   }
   if (!any) return std::nullopt;
   return task;

@@ -23,7 +23,7 @@ struct Refit {
 
 /// What a refit starts from.
 struct RefitBase {
-  const datasets::Study& study;
+  const CoordinateSettings& settings;
   const OedometerExperiments& experiments;  ///< all of the study
   const Problem& problem;
   const std::vector<double>& answer;

@@ -113,7 +113,7 @@ Interval interval_of(const Problem& problem, const std::vector<double>& x, const
   const double width = uncertainty.quantile() * error;
   Interval result{};
   result.value = coordinate.quantity(x[k]);
-  result.std_error = coordinate.logarithmic ? result.value * error : error;
+  result.std_error = coordinate.slope(x[k]) * error;
   result.lower = coordinate.quantity(std::max(x[k] - width, coordinate.lower));
   result.upper = coordinate.quantity(std::min(x[k] + width, coordinate.upper));
   const bool at_bound = parametrisation.at_bound(x, k);
@@ -238,7 +238,7 @@ std::vector<LocalEstimate> estimate_locals(const Problem& problem, const std::ve
   for (std::size_t k = problem.parametrisation().free().size(); k < coordinates.size(); ++k) {
     const Interval interval = interval_of(problem, x, uncertainty, k, std::nullopt);
     estimates.push_back({coordinates[k].name, interval.value, interval.std_error, interval.lower,
-                         interval.upper, interval.verdict, interval.words});
+                         interval.upper, interval.verdict, interval.words, coordinates[k].effect});
   }
   return estimates;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "datasets/effects_section.hpp"
 #include "datasets/element_stages.hpp"
 #include "datasets/study_sections.hpp"
 #include "datasets/toml_table.hpp"

@@ -21,58 +21,121 @@ std::string parameter_names() {
   return fmt::format("names among {}", fmt::join(names, ", "));
 }
 
-std::vector<ParameterId> read_names(TomlTable& fit, std::string_view key, std::vector<ParameterId> defaults) {
-  const std::string accepted = parameter_names() + ", each once, at least one";
+/// What a list of parameters to be fitted holds.
+struct Wanted {
+  std::vector<ParameterId> material;
+  std::vector<FreeEffect> effects;
+};
+
+/// The parameters of effects that are on and that a fit can move, for messages.
+std::string effect_names(const effects::Values<double>& effects) {
+  std::string names;
+  for (const auto& one : effects.chosen()) {
+    for (std::size_t i = 0; i < one.effect->parameters.size(); ++i) {
+      const effects::ParameterRef parameter{one.effect, i};
+      if (parameter.info().searched()) names += ", " + parameter.name();
+    }
+  }
+  return names;
+}
+
+/// A parameter of an effect that is on, by its name.
+effects::ParameterRef read_effect_name(const TomlTable& fit, std::string_view key, const std::string& name,
+                                       const effects::Values<double>& effects, const std::string& accepted) {
+  const auto parameter = effects::find_parameter(name);
+  if (!parameter) throw fit.error(key, fmt::format("\"{}\" is not a parameter", name), accepted);
+  if (!effects.has(*parameter->effect)) {
+    throw fit.error(key, fmt::format("\"{}\" is of an effect that [effects] does not have", name), accepted);
+  }
+  if (!parameter->info().searched()) {
+    throw fit.error(key, fmt::format("\"{}\" is a convention, which no fit can move", name), accepted);
+  }
+  return *parameter;
+}
+
+Wanted read_names(TomlTable& fit, std::string_view key, std::vector<ParameterId> defaults,
+                  const effects::Values<double>& effects) {
+  const std::string accepted = parameter_names() + effect_names(effects) + ", each once, at least one";
   const auto names = fit.texts_if(key, accepted);
-  if (!names) return defaults;
+  if (!names) return {std::move(defaults), {}};
   if (names->empty()) throw fit.error(key, "an empty list", accepted);
-  std::vector<ParameterId> parameters;
-  for (const std::string& name : *names) {
-    const auto parameter = model::find_parameter(name);
-    if (!parameter) throw fit.error(key, fmt::format("\"{}\" is not a parameter", name), accepted);
-    if (std::find(parameters.begin(), parameters.end(), *parameter) != parameters.end()) {
+  Wanted wanted;
+  for (std::size_t i = 0; i < names->size(); ++i) {
+    const std::string& name = (*names)[i];
+    if (std::find(names->begin(), names->begin() + static_cast<std::ptrdiff_t>(i), name) !=
+        names->begin() + static_cast<std::ptrdiff_t>(i)) {
       throw fit.error(key, fmt::format("\"{}\" occurs twice", name), accepted);
     }
-    parameters.push_back(*parameter);
+    if (const auto parameter = model::find_parameter(name)) {
+      wanted.material.push_back(*parameter);
+    } else {
+      wanted.effects.push_back({read_effect_name(fit, key, name, effects, accepted), std::nullopt});
+    }
   }
-  return parameters;
+  return wanted;
 }
 
 bool contains(const std::vector<ParameterId>& parameters, ParameterId id) {
   return std::find(parameters.begin(), parameters.end(), id) != parameters.end();
 }
 
-std::optional<Bounds> read_bounds(TomlTable& table, const ParameterInfo& parameter) {
-  const Range admissible{parameter.lower, parameter.upper, parameter.lower_open, true};
+/// [lower, upper] of a parameter, in the unit of its key.
+std::optional<Bounds> read_bounds(TomlTable& table, std::string_view name, std::string_view unit,
+                                  const Range& admissible, double to_si) {
   const std::string accepted = fmt::format("[lower, upper] with lower < upper, both {}{}", admissible.words(),
-                                           parameter.unit == "-" ? "" : fmt::format(" {}", parameter.unit));
-  const auto values = table.numbers_if(parameter.name, admissible, accepted);
+                                           unit == "-" ? "" : fmt::format(" {}", unit));
+  const auto values = table.numbers_if(name, admissible, accepted);
   if (!values) return std::nullopt;
-  if (values->size() != 2) {
-    throw table.error(parameter.name, fmt::format("a list of {}", values->size()), accepted);
-  }
+  if (values->size() != 2) throw table.error(name, fmt::format("a list of {}", values->size()), accepted);
   const auto [lower, upper] = std::pair{(*values)[0], (*values)[1]};
   if (!(lower < upper)) {
-    throw table.error(parameter.name, fmt::format("[{}, {}] is no interval", lower, upper), accepted);
+    throw table.error(name, fmt::format("[{}, {}] is no interval", lower, upper), accepted);
   }
-  return Bounds{parameter.to_si * lower, parameter.to_si * upper};
+  return Bounds{to_si * lower, to_si * upper};
 }
 
-void read_all_bounds(TomlTable& fit, const model::Parameters<double>& material, FitSettings& settings) {
+/// InputError where the bounds of a parameter that is fitted leave out where it starts.
+void require_start_inside(const TomlTable& table, std::string_view name, const Bounds& bounds, double start,
+                          double to_si, std::string_view where) {
+  if (start >= bounds.lower && start <= bounds.upper) return;
+  throw table.error(name,
+                    fmt::format("[{:.6g}, {:.6g}] leaves out the start value {:.6g}", bounds.lower / to_si,
+                                bounds.upper / to_si, start / to_si),
+                    fmt::format("an interval around {}", where));
+}
+
+void read_effect_bounds(TomlTable& table, const effects::Values<double>& effects, FitSettings& settings) {
+  for (const auto& one : effects.chosen()) {
+    for (std::size_t i = 0; i < one.effect->parameters.size(); ++i) {
+      const effects::ParameterRef parameter{one.effect, i};
+      const auto& info = parameter.info();
+      if (!info.searched()) continue;
+      const std::string name = parameter.name();
+      const auto bounds =
+          read_bounds(table, name, info.unit, {info.lower, info.upper, info.lower_open, false}, info.to_si);
+      for (FreeEffect& free : settings.oedometer_effects) {
+        if (!bounds || free.parameter != parameter) continue;
+        require_start_inside(table, name, *bounds, effects[parameter], info.to_si, name + " of [effects]");
+        free.bounds = bounds;
+      }
+    }
+  }
+}
+
+void read_all_bounds(TomlTable& fit, const model::Parameters<double>& material,
+                     const effects::Values<double>& effects, FitSettings& settings) {
   auto table = fit.table_if("bounds");
   if (!table) return;
   for (const ParameterInfo& parameter : model::kParameterTable) {
     auto& bounds = settings.bounds[static_cast<std::size_t>(parameter.id)];
-    bounds = read_bounds(*table, parameter);
+    bounds = read_bounds(*table, parameter.name, parameter.unit,
+                         {parameter.lower, parameter.upper, parameter.lower_open, true}, parameter.to_si);
     const bool fitted = contains(settings.oedometer, parameter.id) || contains(settings.slump, parameter.id);
-    const double start = material[parameter.id];
-    if (!bounds || !fitted || (start >= bounds->lower && start <= bounds->upper)) continue;
-    throw table->error(
-        parameter.name,
-        fmt::format("[{:.6g}, {:.6g}] leaves out the start value {:.6g}", bounds->lower / parameter.to_si,
-                    bounds->upper / parameter.to_si, start / parameter.to_si),
-        fmt::format("an interval around {} of [material]", parameter.key));
+    if (!bounds || !fitted) continue;
+    require_start_inside(*table, parameter.name, *bounds, material[parameter.id], parameter.to_si,
+                         fmt::format("{} of [material]", parameter.key));
   }
+  read_effect_bounds(*table, effects, settings);
   table->reject_unknown_keys();
 }
 
@@ -98,12 +161,15 @@ void read_all_priors(TomlTable& fit, FitSettings& settings) {
 
 }  // namespace
 
-FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material) {
+FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material,
+                     const effects::Values<double>& effects) {
   FitSettings settings;
   auto fit = root.table_if("fit");
   if (!fit) return settings;
-  settings.oedometer = read_names(*fit, "oedometer", settings.oedometer);
-  settings.slump = read_names(*fit, "slump", settings.slump);
+  Wanted oedometer = read_names(*fit, "oedometer", settings.oedometer, effects);
+  settings.oedometer = std::move(oedometer.material);
+  settings.oedometer_effects = std::move(oedometer.effects);
+  settings.slump = read_names(*fit, "slump", settings.slump, {}).material;
   constexpr std::array<std::string_view, 3> kGauges{"crs-rate", "fixed", "none"};
   constexpr std::array<Gauge, 3> kGaugeValues{Gauge::crs_rate, Gauge::fixed, Gauge::none};
   settings.gauge = kGaugeValues[fit->choice_if("gauge", kGauges).value_or(0)];
@@ -115,7 +181,7 @@ FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material)
   if (const auto seed = fit->integer_if("seed", {0.0, 2'147'483'647.0})) {
     settings.seed = static_cast<unsigned>(*seed);
   }
-  read_all_bounds(*fit, material, settings);
+  read_all_bounds(*fit, material, effects, settings);
   read_all_priors(*fit, settings);
   fit->reject_unknown_keys();
   return settings;

@@ -8,9 +8,12 @@
 namespace isotach::datasets {
 
 /// Reads [fit] of `root`; the defaults of FitSettings where it is absent. `material` is where the fit starts.
-/// InputError: an unknown parameter, one listed twice, an unknown gauge, bounds that are not [lower, upper]
-/// within the admissible range, a fitted parameter that starts outside of its bounds, a prior that is not
-/// { mean, std_error } or is on a parameter that fit-oedometer does not move, counts out of range.
-[[nodiscard]] FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material);
+/// `effects` are those that are on, whose parameters ("ring_friction.mu") oedometer may list too.
+/// InputError: an unknown parameter, one listed twice, one of an effect that is off, an unknown gauge, bounds
+/// that are not [lower, upper] within the admissible range, a fitted parameter that starts outside of its
+/// bounds, a prior that is not { mean, std_error } or is on a parameter that fit-oedometer does not move,
+/// counts out of range.
+[[nodiscard]] FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material,
+                                   const effects::Values<double>& effects = {});
 
 }  // namespace isotach::datasets

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "datasets/effects_section.hpp"
 #include "datasets/study_sections.hpp"
 #include "datasets/toml_table.hpp"
 

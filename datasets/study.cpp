@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "datasets/effects_section.hpp"
 #include "datasets/fit_settings.hpp"
 #include "datasets/oedometer_section.hpp"
 #include "datasets/study_sections.hpp"
@@ -78,18 +79,21 @@ Study parse_study(std::string text, const std::filesystem::path& file, const Rea
   for (const std::string_view section : {"material", "fit", "oedometer", "slump", "numerics"}) {
     static_cast<void>(root.has(section));
   }
-  refuse_effects(root);
+  static_cast<void>(root.has("effects"));
   std::string note;
   if (root.has("note")) note = root.text("note");
   root.reject_unknown_keys();
 
-  Study study{file, std::move(note), read_material(root.table("material")), {}, {}, {}, {}};
-  study.fit = read_fit(root, study.material);
+  Study study{file, std::move(note), read_material(root.table("material")), {}, {}, {}, {}, {}};
+  study.effects = read_effects(root, study.material);
+  study.fit = read_fit(root, study.material, study.effects);
   static_cast<void>(read_numerics(root));  // checked also where no slump test uses it
   std::set<std::string> names;
   for (TomlTable& test : root.tables("oedometer")) {
+    const FilePlace place = test.place();
     study.oedometer_tests.push_back(read_oedometer_test(
         std::move(test), {study.file, study.material, names, read_data, study.assumptions}));
+    check_effects(study.effects, study.oedometer_tests.back(), place);
   }
   for (TomlTable& test : root.tables("slump")) {
     study.slump_tests.push_back(read_slump_test(std::move(test), root, study, names, read_data));

@@ -11,6 +11,7 @@
 #include "datasets/oedometer.hpp"
 #include "datasets/outline.hpp"
 #include "datasets/text_file.hpp"
+#include "effects/values.hpp"
 #include "model/parameters.hpp"
 #include "mpm/slump_setup.hpp"
 
@@ -42,10 +43,17 @@ enum class FitStart {
   material  ///< [material]
 };
 
+/// A parameter of an effect that a fit moves.
+struct FreeEffect {
+  effects::ParameterRef parameter;
+  std::optional<Bounds> bounds;  ///< SI; nothing: those of the catalogue
+};
+
 /// [fit]
 struct FitSettings {
   std::vector<model::ParameterId> oedometer{model::ParameterId::e100, model::ParameterId::lambda,
                                             model::ParameterId::kappa, model::ParameterId::D_r};
+  std::vector<FreeEffect> oedometer_effects;  ///< of effects that are on
   std::vector<model::ParameterId> slump{model::ParameterId::I_v, model::ParameterId::C_1};
   Gauge gauge = Gauge::crs_rate;
   std::optional<double>
@@ -137,6 +145,7 @@ struct Study {
   std::filesystem::path file;
   std::string note{};  ///< what a reader must know of the data, in the author's words; reports show it
   model::Parameters<double> material;
+  effects::Values<double> effects{};  ///< [effects]; a test heeds those of its own kind
   FitSettings fit;
   std::vector<OedometerTest> oedometer_tests;
   std::vector<SlumpTest> slump_tests;

@@ -54,13 +54,6 @@ std::string read_test_name(TomlTable& test, std::set<std::string>& names) {
   return name;
 }
 
-void refuse_effects(TomlTable& root) {
-  const auto effects = root.table_if("effects");
-  if (!effects || effects->empty()) return;
-  throw InputError(effects->place(), "table [effects]",
-                   "it names effects, which this version cannot simulate", "no [effects], or an empty one");
-}
-
 mpm::Mud read_mud(TomlTable mud, Assumptions& assumptions) {
   mpm::Mud result;
   result.void_ratio = mud.number_if("void_ratio", kVoidRatio);

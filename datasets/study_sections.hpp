@@ -33,9 +33,6 @@ class Assumptions {
 /// it.
 [[nodiscard]] std::string read_test_name(TomlTable& test, std::set<std::string>& names);
 
-/// InputError where the file has an [effects] table with anything in it: none of them can be simulated.
-void refuse_effects(TomlTable& root);
-
 /// diameter_mm, fill_height_mm, lift_speed_m_per_s; wall = "smooth" (assumed where absent) or "rough".
 [[nodiscard]] mpm::Mould read_mould(TomlTable mould, Assumptions& assumptions);
 

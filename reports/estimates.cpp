@@ -23,8 +23,18 @@ calibration::ParameterEstimate in_key_unit(const calibration::ParameterEstimate&
   return result;
 }
 
+calibration::LocalEstimate in_key_unit(const calibration::LocalEstimate& estimate) {
+  calibration::LocalEstimate result = estimate;
+  if (!estimate.effect) return result;
+  for (double* number : {&result.value, &result.std_error, &result.ci95_lower, &result.ci95_upper}) {
+    *number /= estimate.effect->info().to_si;
+  }
+  return result;
+}
+
 double quantity_at(const calibration::Coordinate& coordinate, double x) {
   const double si = coordinate.quantity(x);
+  if (coordinate.effect) return si / coordinate.effect->info().to_si;
   return coordinate.id ? in_key_unit(*coordinate.id, si) : si;
 }
 

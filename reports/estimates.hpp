@@ -14,12 +14,16 @@ namespace isotach::reports {
 /// An estimate with all of its numbers in the unit of the parameter's key.
 [[nodiscard]] calibration::ParameterEstimate in_key_unit(const calibration::ParameterEstimate& estimate);
 
+/// A parameter of an effect, or a quantity of a test's start, with all of its numbers in the unit of its
+/// name.
+[[nodiscard]] calibration::LocalEstimate in_key_unit(const calibration::LocalEstimate& estimate);
+
 /// The quantity that a coordinate of a fit stands for at x: a parameter in the unit of its key, or one of a
 /// test's start.
 [[nodiscard]] double quantity_at(const calibration::Coordinate& coordinate, double x);
 /// The coordinate's name: "ln kappa", "C_1", "ln crs-1: OCR".
 [[nodiscard]] std::string coordinate_name(const calibration::Coordinate& coordinate);
-/// The quantity's name with its unit, if it has one: "D_r (1/s)", "crs-1: K0".
+/// The quantity's name with its unit, if it has one: "D_r (1/s)", "seating.delta_m", "crs-1: K0".
 [[nodiscard]] std::string quantity_name(const calibration::Coordinate& coordinate);
 /// The quantity's name in files: "D_r_per_s", "crs-1: K0".
 [[nodiscard]] std::string quantity_key(const calibration::Coordinate& coordinate);

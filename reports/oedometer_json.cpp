@@ -71,6 +71,19 @@ std::string quantities_of(const OedometerFit& fit) {
   return text;
 }
 
+/// Every effect that is on, with its parameters in the units of their names.
+ordered_json effects_json(const effects::Values<double>& values) {
+  ordered_json json = ordered_json::object();
+  for (const auto& one : values.chosen()) {
+    ordered_json& effect = json[std::string(one.effect->name)] = ordered_json::object();
+    for (std::size_t i = 0; i < one.effect->parameters.size(); ++i) {
+      const auto& parameter = one.effect->parameters[i];
+      effect[std::string(parameter.name)] = json_number(one.si[i] / parameter.to_si);
+    }
+  }
+  return json;
+}
+
 ordered_json local_json(const calibration::LocalEstimate& estimate) {
   return {{"name", estimate.name},
           {"value", json_number(estimate.value)},
@@ -262,7 +275,11 @@ ordered_json oedometer_fit_json(const datasets::Study& study, const OedometerFit
   json["quantity"] = quantities_of(fit);
   json["degrees_of_freedom"] = json_number(fit.result.uncertainty.degrees);
   json["tests"] = tests_json(study, fit);
-  json["starts"] = array_of(fit.result.local_estimates, local_json);
+  std::vector<calibration::LocalEstimate> starts = fit.result.local_estimates;
+  std::erase_if(starts,
+                [](const calibration::LocalEstimate& estimate) { return estimate.effect.has_value(); });
+  json["starts"] = array_of(starts, local_json);
+  json["effects"] = effects_json(fit.effects);
   json["noise"] = array_of(fit.noise.channels, noise_json);
   json["checks"] = array_of(fit.checks, check_json);
   json["start_values"] = start_values_json(fit);

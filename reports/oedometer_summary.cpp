@@ -215,10 +215,11 @@ void add_oedometer_facts(Page& page, const OedometerFit& fit) {
 
 Table start_estimate_table(const calibration::FitResult& result) {
   using enum Alignment;
-  Table table{.caption = "Starts of tests that were fitted.",
+  Table table{.caption = "Effects and starts of tests that were fitted.",
               .header = {"Quantity", "Value ± standard error", "95 % interval", "Verdict", "Why"},
               .alignment = {left, right, right, left, left}};
-  for (const calibration::LocalEstimate& estimate : result.local_estimates) {
+  for (const calibration::LocalEstimate& si : result.local_estimates) {
+    const calibration::LocalEstimate estimate = in_key_unit(si);
     table.rows.push_back({estimate.name, format_with_error(estimate.value, estimate.std_error),
                           interval_text(estimate.ci95_lower, estimate.ci95_upper),
                           std::string(calibration::name_of(estimate.verdict)), estimate.words});

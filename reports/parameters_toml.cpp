@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <vector>
@@ -16,20 +17,25 @@ namespace {
 using calibration::ParameterEstimate;
 using calibration::Verdict;
 
-/// The shortest decimal that a reader of the key turns into exactly this SI value. Where a change of unit
-/// leaves none, the nearest there is.
-std::string exact_decimal(const model::ParameterInfo& info, double si) {
-  const double value = si / info.to_si;
+/// The shortest decimal near `value` that `does(read)` accepts once it is read, or one of all digits.
+template <class Does>
+std::string shortest_decimal(double value, Does&& does) {
   std::string text;
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
     text = fmt::format("{:.{}g}", value, digits);
     double read = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), read);
-    if (info.to_si * read == si) break;
+    if (does(read)) break;
   }
   // TOML tells floats from integers by the point or the exponent
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
+}
+
+/// The shortest decimal that a reader of the key turns into exactly this SI value. Where a change of unit
+/// leaves none, the nearest there is.
+std::string exact_decimal(const model::ParameterInfo& info, double si) {
+  return shortest_decimal(si / info.to_si, [&](double read) { return info.to_si * read == si; });
 }
 
 /// Where a value came from; `fitted_by` names the fit.
@@ -59,7 +65,9 @@ std::string render(const RunInfo& run, const std::vector<Origin>& origins, model
                    const std::vector<std::string>& notes) {
   std::string text =
       fmt::format("# Written by isotach {} {} from {}.\n", run.command, run.version, input_name(run.input));
-  text += "# Usable as the [material] of a study or a test; +- is one standard error.\n";
+  text +=
+      "# Usable as the [material], and [effects] where it has them, of a study or a test; +- is one standard "
+      "error.\n";
   for (const std::string& note : notes) text += fmt::format("# {}\n", note);
   text += "\n[material]\n";
   for (const auto& [estimate, fitted_by] : origins) {
@@ -68,6 +76,35 @@ std::string render(const RunInfo& run, const std::vector<Origin>& origins, model
                         origin(estimate, fitted_by));
   }
   if (lode == model::LodeDependence::none) text += "lode_dependence = \"none\"\n";
+  return text;
+}
+
+/// The shortest decimal that `to_si` times it turns into exactly this SI value.
+std::string effect_decimal(const effects::EffectParameter& parameter, double si) {
+  return shortest_decimal(si / parameter.to_si, [&](double read) { return parameter.to_si * read == si; });
+}
+
+/// [effects], empty where there are none.
+std::string render_effects(const calibration::OedometerFit& fit) {
+  if (fit.effects.empty()) return {};
+  const auto fitted = [&](const effects::ParameterRef& parameter) {
+    const auto& estimates = fit.result.local_estimates;
+    return std::any_of(estimates.begin(), estimates.end(),
+                       [&](const auto& estimate) { return estimate.effect == parameter; });
+  };
+  std::string text = "\n[effects]\n";
+  for (const auto& one : fit.effects.chosen()) {
+    std::string parameters;
+    std::string moved;
+    for (std::size_t i = 0; i < one.effect->parameters.size(); ++i) {
+      const auto& parameter = one.effect->parameters[i];
+      parameters +=
+          fmt::format("{}{} = {}", i == 0 ? "" : ", ", parameter.name, effect_decimal(parameter, one.si[i]));
+      if (fitted({one.effect, i})) moved += (moved.empty() ? "" : ", ") + std::string(parameter.name);
+    }
+    text += fmt::format("{} = {{ {} }}  # {}; {}\n", one.effect->name, parameters, one.effect->meaning,
+                        moved.empty() ? "not fitted: as the study gives it" : "fitted: " + moved);
+  }
   return text;
 }
 
@@ -84,7 +121,8 @@ std::vector<Origin> all_by(const calibration::FitResult& result, std::string_vie
 
 std::string parameters_toml(const RunInfo& run, const calibration::OedometerFit& fit) {
   return render(run, all_by(fit.result, kByOedometer), fit.result.parameters->lode(),
-                {gauge_sentence(fit.result)});
+                {gauge_sentence(fit.result)}) +
+         render_effects(fit);
 }
 
 std::string parameters_toml(const RunInfo& run, const calibration::SlumpFit& fit) {
@@ -97,7 +135,8 @@ std::string parameters_toml(const RunInfo& run, const calibration::Calibration& 
     origins.push_back({estimate, is_free(calibration.slump.result, estimate.id) ? kBySlump : kByOedometer});
   }
   return render(run, origins, calibration.slump.result.parameters->lode(),
-                {gauge_sentence(calibration.oedometer.result)});
+                {gauge_sentence(calibration.oedometer.result)}) +
+         render_effects(calibration.oedometer);
 }
 
 }  // namespace isotach::reports

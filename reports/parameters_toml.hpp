@@ -9,9 +9,9 @@
 
 namespace isotach::reports {
 
-/// A [material] table with every parameter under its key and in its key's unit, and a comment on each that
-/// says where it came from. Read back it gives the same doubles: each number is the shortest decimal that
-/// does so.
+/// A [material] table, and where the oedometer fit has effects an [effects] table, with every parameter under
+/// its key and in its key's unit, and comments that say where each came from. Read back it gives the same
+/// doubles: each number is the shortest decimal that does so.
 [[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::OedometerFit& fit);
 [[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::SlumpFit& fit);
 [[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::Calibration& calibration);

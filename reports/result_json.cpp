@@ -68,6 +68,7 @@ ordered_json result_json(const RunInfo& run, const datasets::Study& study,
   append(warnings, calibration.slump.result.warnings, "slump fit: ");
   ordered_json json = result_head(run, "ok", warnings);
   json["parameters"] = parameters_json(combined_estimates(calibration));
+  json["parameters"].update(effect_parameters_json(calibration.oedometer.result.local_estimates));
   json["adequate"] = calibration.oedometer.result.adequate && calibration.slump.result.adequate;
   json["settled"] = calibration.settled;
   json["rounds"] = ordered_json::array();

@@ -143,5 +143,91 @@ TEST(Tangent, IsTheDerivativeOfTheParameters) {
   EXPECT_EQ(tangent->derivative(static_cast<Eigen::Index>(D_r), 0), 0.0);
 }
 
+/// Knows only which local quantities it has.
+class WithLocals final : public experiments::Experiment {
+ public:
+  WithLocals(std::string name, std::vector<experiments::LocalQuantity> locals, bool held_out = false)
+      : name_(std::move(name)), locals_(std::move(locals)), held_out_(held_out) {}
+  const std::string& name() const override { return name_; }
+  bool held_out() const override { return held_out_; }
+  const experiments::Values& measured() const override { return none_; }
+  std::string_view quantity() const override { return ""; }
+  const experiments::Values& noise() const override { return none_; }
+  std::vector<experiments::LocalQuantity> locals() const override { return locals_; }
+  tl::expected<experiments::Values, experiments::PredictionFailure> predict(
+      const model::Parameters<double>&, std::span<const double>) const override {
+    return none_;
+  }
+
+ private:
+  std::string name_;
+  std::vector<experiments::LocalQuantity> locals_;
+  bool held_out_;
+  experiments::Values none_;
+};
+
+// Two tests and one held out: K0 is the first's own, the effect's two parameters are of all three.
+class SharedEffects : public ::testing::Test {
+ protected:
+  const effects::ParameterRef delta_ = *effects::find_parameter("seating.delta_m");
+  const effects::ParameterRef sigma_s_ = *effects::find_parameter("seating.sigma_s_kPa");
+  const experiments::LocalQuantity K0_{"K0", 0.8, 0.15, 2.0, false, std::nullopt};
+  const experiments::LocalQuantity delta_local_{"seating.delta_m", 2e-4,  0.0, 5e-3, false,
+                                                std::nullopt,      delta_};
+  const experiments::LocalQuantity sigma_local_{"seating.sigma_s_kPa", 15e3,    1e2, 1e6, true,
+                                                std::nullopt,          sigma_s_};
+  const Experiments tests_{std::make_shared<WithLocals>("a", std::vector{K0_, delta_local_, sigma_local_}),
+                           std::make_shared<WithLocals>("b", std::vector{delta_local_, sigma_local_}),
+                           std::make_shared<WithLocals>("c", std::vector{delta_local_, sigma_local_}, true)};
+};
+
+TEST_F(SharedEffects, AreOneCoordinateEachOverTheirTypicalValueOrAsLogarithm) {
+  CoordinateSettings settings;
+  settings.effects = {{sigma_s_, datasets::Bounds{5e3, 50e3}}};
+  const Parametrisation p(seed_mud(), {lambda}, settings, kNoGauge, tests_);
+  ASSERT_EQ(p.size(), 4);
+  EXPECT_EQ(p.coordinates()[1].name, "seating.delta_m");
+  EXPECT_EQ(p.coordinates()[2].name, "seating.sigma_s_kPa");
+  EXPECT_EQ(p.coordinates()[3].name, "a: K0");
+  EXPECT_DOUBLE_EQ(p.start()[1], 2.0);  // of 1e-4 m
+  EXPECT_DOUBLE_EQ(p.upper()[1], 50.0);
+  EXPECT_DOUBLE_EQ(p.start()[2], std::log(15e3));
+  EXPECT_DOUBLE_EQ(p.lower()[2], std::log(5e3));
+  EXPECT_DOUBLE_EQ(p.upper()[2], std::log(50e3));
+}
+
+TEST_F(SharedEffects, ReachEveryTestHeldOutOrNot) {
+  const Parametrisation p(seed_mud(), {lambda}, {}, kNoGauge, tests_);
+  const std::vector<double> x{std::log(0.15), 3.0, std::log(20e3), 0.7};
+  const std::vector<double> a = p.local_at(x, 0);
+  ASSERT_EQ(a.size(), 3);
+  EXPECT_DOUBLE_EQ(a[0], 0.7);
+  EXPECT_DOUBLE_EQ(a[1], 3e-4);
+  EXPECT_DOUBLE_EQ(a[2], 20e3);
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_EQ(p.local_at(x, i), (std::vector{a[1], a[2]}));
+  }
+  const WithLocals stranger("d", {K0_, delta_local_});
+  EXPECT_EQ(p.local_of(stranger, x), (std::vector{0.8, a[1]}));
+}
+
+TEST_F(SharedEffects, HaveTheSlopeOfTheirCoordinateInEveryTest) {
+  const Parametrisation p(seed_mud(), {lambda}, {}, kNoGauge, tests_);
+  const std::vector<double> x{std::log(0.15), 3.0, std::log(20e3), 0.7};
+  const auto tangent = p.tangent(x);
+  ASSERT_TRUE(tangent);
+  const Eigen::MatrixXd a = p.directions(*tangent, x, 0);
+  const Eigen::MatrixXd b = p.directions(*tangent, x, 1);
+  constexpr auto kFirst = static_cast<Eigen::Index>(model::kParameterCount);
+  EXPECT_EQ(a(kFirst, 3), 1.0);
+  EXPECT_DOUBLE_EQ(a(kFirst + 1, 1), 1e-4);
+  EXPECT_DOUBLE_EQ(a(kFirst + 2, 2), 20e3);
+  EXPECT_DOUBLE_EQ(b(kFirst, 1), 1e-4);
+  EXPECT_DOUBLE_EQ(b(kFirst + 1, 2), 20e3);
+  EXPECT_EQ(b.col(3).norm(), 0.0);
+  EXPECT_EQ((a.bottomRows(3).array() != 0.0).count(), 3);
+  EXPECT_EQ((b.bottomRows(2).array() != 0.0).count(), 2);
+}
+
 }  // namespace
 }  // namespace isotach::calibration

@@ -292,12 +292,6 @@ TEST_F(StudyFile, FitSettingsThatCannotBeAreRefused) {
   expect_refused("reference_rate_per_s = 7e-7", "reference_rate_per_s = 0", {"study.toml:13", "> 0"});
 }
 
-TEST_F(StudyFile, EffectsAreRefusedUnlessEmpty) {
-  expect_refused("[fit]\n", "[effects]\nring_friction = { mu = 0.1 }\n[fit]\n",
-                 {"study.toml:10: table [effects]", "cannot simulate"});
-  EXPECT_NO_THROW(static_cast<void>(read_changed("[fit]\n", "[effects]\n[fit]\n")));
-}
-
 TEST_F(StudyFile, ANameTwiceAndAStudyWithoutTestsAreRefused) {
   expect_refused("name = \"slump\"", "name = \"crs\"", {"study.toml:30: key name", "\"crs\" occurs twice"});
   expect_refused("name = \"slump\"", "name = \"a/b\"", {"study.toml:30: key name", "slashes"});

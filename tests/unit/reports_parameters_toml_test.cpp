@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "datasets/effects_section.hpp"
 #include "datasets/study_sections.hpp"
 #include "datasets/toml_table.hpp"
 #include "reports/parameters_toml.hpp"
@@ -65,6 +66,33 @@ TEST_F(ParametersToml, RoundTripsAnglesThatWereFitted) {
     fit.result.parameters = model::Parameters<double>::create(values).value();
     fit.result.estimates[static_cast<std::size_t>(model::ParameterId::phi_c)].value = phi_c;
     ASSERT_EQ(read_back(parameters_toml(run_of("fit-oedometer"), fit)).phi_c(), phi_c);
+  }
+}
+
+TEST_F(ParametersToml, RoundTripsEveryEffectAtAnyValues) {
+  calibration::OedometerFit fit = small_calibration().oedometer;
+  for (int i = 1; i <= 50; ++i) {
+    std::vector<effects::Chosen<double>> chosen;
+    for (const effects::Effect* effect : effects::catalogue()) {
+      chosen.push_back({effect, {}});
+      for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
+        const double share = std::fmod(0.6180339887 * (i + static_cast<int>(k)), 1.0);
+        chosen.back().si[k] = effect->parameters[k].to_si * (effect->parameters[k].typical * (0.5 + share));
+      }
+    }
+    fit.effects = *effects::Values<double>::create(chosen);
+    const std::string text = parameters_toml(run_of("fit-oedometer"), fit);
+    std::ofstream(root_ / "parameters.toml") << text;
+    const auto document = datasets::TomlDocument::read(root_ / "parameters.toml", {});
+    auto root = document.root();
+    const auto material = datasets::read_material(root.table("material"));
+    const auto read = datasets::read_effects(root, material);
+    root.reject_unknown_keys();
+    for (std::size_t e = 0; e < chosen.size(); ++e) {
+      const auto* values = read.find(*chosen[e].effect);
+      ASSERT_NE(values, nullptr) << text;
+      EXPECT_EQ(*values, chosen[e].si) << chosen[e].effect->name;
+    }
   }
 }
 
