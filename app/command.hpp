@@ -82,6 +82,7 @@ void add_file_limit(CLI::App& line, CommonOptions& common);
 
 // The commands.
 [[nodiscard]] Runner calibrate_command(CLI::App& line, CommonOptions& common);
+[[nodiscard]] Runner discover_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner element_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner fit_oedometer_command(CLI::App& line, CommonOptions& common);
 [[nodiscard]] Runner fit_slump_command(CLI::App& line, CommonOptions& common);

@@ -26,6 +26,8 @@ using isotach::app::Runner;
 constexpr Command kCommands[] = {
     {"calibrate", "the main job: fit-oedometer, fit-slump, and again until both stand still",
      isotach::app::calibrate_command},
+    {"discover", "does the model suffice for the oedometer tests, and what is missing if not",
+     isotach::app::discover_command},
     {"element", "one element test: a material point led through stages of stress and strain",
      isotach::app::element_command},
     {"fit-oedometer", "e100, lambda, kappa, D_r (and more, as the study says) from oedometer tests",

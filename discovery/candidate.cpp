@@ -1,0 +1,91 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/candidate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/optimisers.hpp"
+
+namespace isotach::discovery {
+
+std::string name_of(const Candidate& candidate) {
+  std::string name;
+  for (const effects::Effect* effect : candidate.added) {
+    if (!name.empty()) name += ", ";
+    name += effect->name;
+  }
+  return name.empty() ? "base" : name;
+}
+
+Gap gap_of(const calibration::OedometerFit& fit) {
+  double squares[2] = {0.0, 0.0};
+  double counts[2] = {0.0, 0.0};
+  for (std::size_t i = 0; i < fit.experiments.size(); ++i) {
+    const std::size_t k = fit.experiments[i]->held_out() ? 1 : 0;
+    for (const double r : fit.evaluation.scaled_residuals[i]) {
+      squares[k] += r * r;
+      counts[k] += 1.0;
+    }
+  }
+  return {std::sqrt(squares[0] / counts[0]), std::sqrt(squares[1] / counts[1])};
+}
+
+std::optional<std::string> lacks(const datasets::Study& study, const effects::Effect& effect) {
+  for (const datasets::OedometerTest& test : study.oedometer_tests) {
+    try {
+      const experiments::OedometerExperiment tried(
+          test, *effects::Values<double>::create({effects::with_amplitude(effect, 0.0)}), {});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  }
+  return std::nullopt;
+}
+
+tl::expected<Candidate, calibration::FitFailure> fit_with(const datasets::Study& study,
+                                                          const model::Parameters<double>& start,
+                                                          const std::vector<const effects::Effect*>& added,
+                                                          const calibration::OedometerFitOptions& options) {
+  Candidate candidate;
+  candidate.added = added;
+  calibration::FittedEffects with{study.effects, study.fit.oedometer_effects};
+  for (const effects::Effect* effect : added) {
+    auto on = with.on.with(effects::with_amplitude(*effect, effect->parameters[0].typical_si()));
+    if (!on) return tl::unexpected(calibration::FitFailure{on.error().message()});
+    with.on = std::move(*on);
+    for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
+      if (effect->parameters[k].searched()) with.free.push_back({{effect, k}, std::nullopt});
+    }
+  }
+  auto fit = calibration::fit_oedometer(study, start, study.fit.oedometer, with, options);
+  if (!fit) return tl::unexpected(fit.error());
+  candidate.fit = std::move(*fit);
+  candidate.free = with.free;
+  for (const effects::Effect* effect : added) {
+    const double amplitude = candidate.fit.effects[effects::ParameterRef{effect, 0}];
+    const effects::EffectParameter& info = effect->parameters[0];
+    const double near = 1e-3 * info.typical_si();
+    if (std::abs(amplitude) < near || amplitude > info.upper_si() - near ||
+        amplitude < info.lower_si() + near) {
+      candidate.at_bound = true;
+    }
+  }
+  return candidate;
+}
+
+void weigh_alike(const datasets::Study& study, std::vector<Candidate*> candidates, int threads) {
+  const auto best = std::min_element(candidates.begin(), candidates.end(), [](auto* a, auto* b) {
+    return gap_of(a->fit).fitted < gap_of(b->fit).fitted;
+  });
+  for (Candidate* candidate : candidates) {
+    calibration::Problem problem = calibration::problem_of(study, candidate->fit, candidate->free, threads);
+    problem.set_weights((*best)->fit.noise.weights);
+    const auto found =
+        calibration::minimise_with_ceres(problem, candidate->fit.result.main.coordinates, {}, {});
+    candidate->chi_squared = 2.0 * found.cost;
+    candidate->bic = candidate->chi_squared + static_cast<double>(problem.parametrisation().size()) *
+                                                  std::log(static_cast<double>(problem.value_count()));
+  }
+}
+
+}  // namespace isotach::discovery

@@ -1,0 +1,321 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/discover.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "discovery/limits.hpp"
+
+namespace isotach::discovery {
+
+namespace {
+
+using calibration::FitFailure;
+using Effects = std::vector<const effects::Effect*>;
+
+constexpr std::size_t kNeighbours = 3;  // of the smoother, on either side
+
+std::vector<Disagreement> disagreement_of(const calibration::OedometerFit& fit) {
+  std::vector<Disagreement> all;
+  for (const calibration::TestCheck& test : fit.checks) {
+    for (const calibration::StageCheck& stage : test.stages) {
+      const double count = static_cast<double>(stage.count);
+      const double beyond = count * (stage.rms_over_noise * stage.rms_over_noise - 1.0);
+      all.push_back({test.name, test.held_out, stage, std::sqrt(std::max(0.0, beyond))});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  return all;
+}
+
+/// What the mean of a value's neighbours leaves of it: what a curve drawn through the readings would reach.
+double smoothed_gap(const calibration::OedometerFit& fit) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < fit.experiments.size(); ++i) {
+    if (fit.experiments[i]->held_out()) continue;
+    const experiments::Values& r = fit.evaluation.scaled_residuals[i];
+    for (std::size_t k = 0; k < r.size(); ++k) {
+      const std::size_t from = k > kNeighbours ? k - kNeighbours : 0;
+      const std::size_t to = std::min(r.size(), k + kNeighbours + 1);
+      double sum = -r[k];
+      for (std::size_t j = from; j < to; ++j) sum += r[j];
+      const double left = r[k] - sum / std::max(1.0, static_cast<double>(to - from - 1));
+      squares += left * left;
+      count += 1.0;
+    }
+  }
+  return std::sqrt(squares / count);
+}
+
+/// The work of one study.
+class Search {
+ public:
+  Search(const datasets::Study& study, const DiscoverOptions& options) : study_(study), options_(options) {
+    fit_options_.threads = options.threads;
+    fit_options_.depth = calibration::Depth::answer;
+    fit_options_.control = options.control;
+  }
+
+  tl::expected<Discovery, FitFailure> run() {
+    tell(0.0, "fit of the base");
+    auto base = fit_with(study_, study_.material, {}, fit_options_);
+    if (!base) return tl::unexpected(base.error());
+    found_.base.candidate = std::move(*base);
+    found_.base.gap = gap_of(found_.base.candidate.fit);
+    found_.disagreement = disagreement_of(found_.base.candidate.fit);
+    found_.smoother = smoothed_gap(found_.base.candidate.fit);
+    choose_effects();
+
+    tell(0.1, "scores of the effects");
+    const auto first = score(study_, found_.base.candidate, effects_, found_.base.candidate.fit.noise.weights,
+                             options_.threads);
+    if (!first) return tl::unexpected(first.error());
+    if (auto failure = try_each(by_score(*first))) return tl::unexpected(*failure);
+    if (auto failure = weigh()) return tl::unexpected(*failure);
+    if (rejected() && !any_adequate()) {
+      if (auto failure = try_pairs()) return tl::unexpected(*failure);
+      if (auto failure = weigh()) return tl::unexpected(*failure);
+    }
+    if (auto failure = decide()) return tl::unexpected(*failure);
+    tell(1.0, "done");
+    return std::move(found_);
+  }
+
+ private:
+  void tell(double done, const std::string& what) const {
+    if (options_.progress) options_.progress(done, what);
+  }
+  [[nodiscard]] std::optional<FitFailure> stopped() const {
+    if (options_.control.stopped()) return FitFailure{"interrupted", true};
+    return std::nullopt;
+  }
+
+  /// Those of the catalogue that the base does not have and that every test can have.
+  void choose_effects() {
+    for (const effects::Effect* effect : effects::catalogue()) {
+      if (effect->test != effects::TestKind::oedometer) continue;
+      if (study_.effects.has(*effect)) {
+        found_.not_tried.emplace_back(effect, "the model has it already");
+      } else if (auto why = lacks(study_, *effect)) {
+        found_.not_tried.emplace_back(effect, *why);
+      } else {
+        effects_.push_back(effect);
+      }
+    }
+  }
+
+  static Effects by_score(const ScoreTest& scores) {
+    std::vector<std::size_t> order(scores.effects.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return scores.best[a] > scores.best[b]; });
+    Effects sorted;
+    for (const std::size_t k : order) sorted.push_back(scores.effects[k]);
+    return sorted;
+  }
+
+  std::optional<FitFailure> try_set(const Effects& added) {
+    if (auto interrupted = stopped()) return interrupted;
+    calibration::OedometerFitOptions near = fit_options_;
+    near.start_from_data = false;
+    auto candidate = fit_with(study_, *found_.base.candidate.fit.result.parameters, added, near);
+    if (!candidate) {
+      if (candidate.error().interrupted) return candidate.error();
+      std::string names;
+      for (const effects::Effect* effect : added) names += std::string(effect->name) + " ";
+      found_.not_tried.emplace_back(added.back(),
+                                    names + "could not be fitted: " + candidate.error().message);
+      return std::nullopt;
+    }
+    Trial trial;
+    trial.gap = gap_of(candidate->fit);
+    trial.candidate = std::move(*candidate);
+    found_.trials.push_back(std::move(trial));
+    return std::nullopt;
+  }
+
+  std::optional<FitFailure> try_each(const Effects& sorted) {
+    const std::size_t count = std::min(kRefitted, sorted.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      tell(0.15 + 0.45 * static_cast<double>(k) / static_cast<double>(count),
+           "fit with " + std::string(sorted[k]->name));
+      if (auto failure = try_set({sorted[k]})) return failure;
+    }
+    for (std::size_t k = count; k < sorted.size(); ++k) {
+      found_.not_tried.emplace_back(sorted[k], "others score higher");
+    }
+    return std::nullopt;
+  }
+
+  std::optional<FitFailure> try_pairs() {
+    const std::size_t count = std::min(kPaired, found_.trials.size());
+    Effects single;
+    for (std::size_t k = 0; k < count; ++k) single.push_back(found_.trials[k].candidate.added.front());
+    for (std::size_t a = 0; a < count; ++a) {
+      for (std::size_t b = a + 1; b < count; ++b) {
+        tell(0.65 + 0.2 * static_cast<double>(a) / static_cast<double>(count),
+             fmt::format("fit with {} and {}", single[a]->name, single[b]->name));
+        if (auto failure = try_set({single[a], single[b]})) return failure;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// BIC of all by one noise, the base's rejection, and whether each trial is adequate.
+  std::optional<FitFailure> weigh() {
+    std::vector<Candidate*> all{&found_.base.candidate};
+    for (Trial& trial : found_.trials) all.push_back(&trial.candidate);
+    weigh_alike(study_, all, options_.threads);
+    std::stable_sort(found_.trials.begin(), found_.trials.end(),
+                     [](const Trial& a, const Trial& b) { return a.candidate.bic < b.candidate.bic; });
+    const calibration::OedometerFit& noise =
+        found_.trials.empty() ? found_.base.candidate.fit : found_.trials.front().candidate.fit;
+    auto scores = score(study_, found_.base.candidate, effects_, noise.noise.weights, options_.threads);
+    if (!scores) return scores.error();
+    found_.scores = std::move(*scores);
+    const double gain = found_.trials.empty()
+                            ? 0.0
+                            : found_.base.candidate.chi_squared - found_.trials.front().candidate.chi_squared;
+    found_.p_value = found_.scores.p_value(gain);
+    found_.base.adequacy.meets_noise = found_.base.candidate.fit.result.adequate;
+    found_.base.adequacy.p_value = found_.p_value;
+    found_.base.adequate = !rejected();
+    for (Trial& trial : found_.trials) {
+      if (trial.candidate.bic > found_.trials.front().candidate.bic + kMargin) break;
+      if (auto failure = judge(trial)) return failure;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<FitFailure> judge(Trial& trial) {
+    Effects others;
+    for (const effects::Effect* effect : effects_) {
+      const Effects& added = trial.candidate.added;
+      if (std::find(added.begin(), added.end(), effect) == added.end()) others.push_back(effect);
+    }
+    const auto left =
+        score(study_, trial.candidate, others, trial.candidate.fit.noise.weights, options_.threads);
+    if (!left) return left.error();
+    trial.adequacy.meets_noise = trial.candidate.fit.result.adequate;
+    trial.adequacy.most = nullptr;
+    trial.adequacy.p_value = 1.0;
+    if (!left->best.empty()) {
+      const auto most = std::max_element(left->best.begin(), left->best.end());
+      trial.adequacy.most = left->effects[static_cast<std::size_t>(most - left->best.begin())];
+      trial.adequacy.p_value = left->p_value(*most);
+    }
+    trial.adequate = trial.adequacy.meets_noise && trial.adequacy.p_value >= kLeavesNothing;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool rejected() const {
+    return !found_.base.adequacy.meets_noise || found_.p_value < kRejects;
+  }
+  [[nodiscard]] bool any_adequate() const {
+    return std::any_of(found_.trials.begin(), found_.trials.end(),
+                       [](const Trial& trial) { return trial.adequate; });
+  }
+
+  /// Misfit of each fitted test, in turn, as the others predict it: by the base and with `added`.
+  tl::expected<std::pair<double, double>, FitFailure> left_out(const Effects& added) const {
+    std::pair<double, double> sums{0.0, 0.0};
+    for (std::size_t t = 0; t < study_.oedometer_tests.size(); ++t) {
+      if (study_.oedometer_tests[t].hold_out) continue;
+      datasets::Study others = study_;
+      others.oedometer_tests[t].hold_out = true;
+      for (const bool with : {false, true}) {
+        calibration::OedometerFitOptions near = fit_options_;
+        near.start_from_data = false;
+        const auto fit =
+            fit_with(others, *found_.base.candidate.fit.result.parameters, with ? added : Effects{}, near);
+        if (!fit) return tl::unexpected(fit.error());
+        const double rms = fit->fit.result.tests[t].rms_over_noise;
+        (with ? sums.second : sums.first) += rms * rms;
+      }
+    }
+    return sums;
+  }
+
+  std::optional<FitFailure> decide() {
+    if (found_.trials.size() > 1) found_.best_wrong = found_.trials[1].gap.fitted;
+    if (!rejected()) {
+      found_.verdict = Verdict::adequate;
+      return std::nullopt;
+    }
+    const Trial& best = found_.trials.front();
+    const double lead = found_.trials.size() > 1 ? found_.trials[1].candidate.bic - best.candidate.bic
+                                                 : std::numeric_limits<double>::infinity();
+    const auto require = [this](bool holds, std::string text) {
+      found_.conditions.push_back({std::move(text), holds});
+      return holds;
+    };
+    bool good = require(best.adequate, fmt::format("with {} the model meets every test and stage, and no "
+                                                   "further effect is called for (p = {:.3g})",
+                                                   name_of(best.candidate), best.adequacy.p_value));
+    good &= require(!best.candidate.at_bound, "its amplitude lies within its bounds and is not zero");
+    if (!good) {
+      found_.verdict = Verdict::unknown;
+      return std::nullopt;
+    }
+    const bool leads = require(lead >= kMargin, fmt::format("its BIC is lower than the next by {:.1f} "
+                                                            "({} asked)",
+                                                            lead, kMargin));
+    std::size_t fitted = 0;
+    for (const auto& test : study_.oedometer_tests) fitted += test.hold_out ? 0U : 1U;
+    if (fitted > 1) {
+      tell(0.9, "each test as the others predict it");
+      const auto sums = left_out(best.candidate.added);
+      if (!sums && sums.error().interrupted) return sums.error();
+      const bool better = sums && sums->second < sums->first;
+      if (!require(better, "tests left out of the fit are predicted better with it") && leads) {
+        found_.verdict = Verdict::unknown;
+        return std::nullopt;
+      }
+    }
+    if (leads) {
+      found_.verdict = Verdict::named;
+      found_.chosen = 0;
+      return std::nullopt;
+    }
+    found_.verdict = Verdict::ambiguous;
+    for (std::size_t k = 0; k < found_.trials.size(); ++k) {
+      const Trial& trial = found_.trials[k];
+      if (trial.candidate.bic < best.candidate.bic + kMargin) found_.equivalent.push_back(k);
+    }
+    found_.next = tell_apart(study_, best.candidate, found_.trials[1].candidate);
+    return std::nullopt;
+  }
+
+  const datasets::Study& study_;
+  const DiscoverOptions& options_;
+  calibration::OedometerFitOptions fit_options_;
+  Effects effects_;
+  Discovery found_;
+};
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate:
+      return "adequate";
+    case Verdict::named:
+      return "named";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::unknown:
+      return "unknown";
+  }
+  return "";
+}
+
+tl::expected<Discovery, FitFailure> discover_oedometer(const datasets::Study& study,
+                                                       const DiscoverOptions& options) {
+  return Search(study, options).run();
+}
+
+}  // namespace isotach::discovery

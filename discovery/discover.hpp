@@ -1,0 +1,80 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// Does the model suffice for a study's oedometer tests? If not: where does it fail, what is missing, how
+// sure, and what would decide?
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discovery/candidate.hpp"
+#include "discovery/next_experiment.hpp"
+#include "discovery/score_test.hpp"
+
+namespace isotach::discovery {
+
+enum class Verdict {
+  adequate,   ///< the base meets the data to within their noise
+  named,      ///< effects are missing, and these are they
+  ambiguous,  ///< something is missing, which more than one effect explains
+  unknown     ///< something is missing that no effect of the catalogue explains
+};
+[[nodiscard]] std::string_view name_of(Verdict verdict);
+
+/// Where the base disagrees with the data: one stage of a test.
+struct Disagreement {
+  std::string test;
+  bool held_out;
+  calibration::StageCheck stage;
+  double score;  ///< root of the sum of squares beyond that of noise, in units of noise
+};
+
+/// Whether a model meets the data.
+struct Adequacy {
+  bool meets_noise = false;     ///< every test and stage within its stated noise
+  double p_value = 0.0;         ///< that noise makes any effect look so useful on top of it
+  const effects::Effect* most;  ///< the effect that looks so; null where there is none
+};
+
+/// A set of effects that was tried.
+struct Trial {
+  Candidate candidate;
+  Adequacy adequacy;
+  Gap gap;
+  bool adequate = false;
+};
+
+/// A reason for or against a name.
+struct Condition {
+  std::string text;
+  bool holds;
+};
+
+struct Discovery {
+  Verdict verdict = Verdict::adequate;
+  Trial base;
+  ScoreTest scores;           ///< of all effects, on the base, by the best candidate's noise
+  double p_value = 0.0;       ///< of the base's rejection
+  std::vector<Trial> trials;  ///< by BIC, the best first
+  std::vector<std::pair<const effects::Effect*, std::string>> not_tried;  ///< and why
+  std::optional<std::size_t> chosen;                                      ///< of the trials, where named
+  std::vector<std::size_t> equivalent;     ///< trials that the data cannot tell apart, where ambiguous
+  std::vector<Condition> conditions;       ///< of a name, on the best trial
+  std::vector<Disagreement> disagreement;  ///< ranked
+  double best_wrong = 0.0;                 ///< gap of the best trial that is not the first (fitted tests)
+  double smoother = 0.0;                   ///< gap that a smoother of the base's residuals leaves
+  std::optional<NextExperiment> next;      ///< where ambiguous
+};
+
+struct DiscoverOptions {
+  int threads = 1;
+  calibration::OptimiserControl control;
+  /// Fraction of the work done, and what is being done; may be empty.
+  std::function<void(double, const std::string&)> progress;
+};
+
+[[nodiscard]] tl::expected<Discovery, calibration::FitFailure> discover_oedometer(
+    const datasets::Study& study, const DiscoverOptions& options);
+
+}  // namespace isotach::discovery

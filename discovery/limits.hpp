@@ -1,0 +1,29 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// Where discovery draws its lines, and why there.
+#pragma once
+
+#include <cstddef>
+
+namespace isotach::discovery {
+
+/// The base is rejected where noise alone would let some effect of the catalogue improve the fit as much in
+/// less than so many cases (parametric bootstrap of the largest of all): a null in five hundred gets as far
+/// as the other conditions of a name.
+inline constexpr double kRejects = 0.002;
+/// Replicates of that bootstrap: ten beyond the level.
+inline constexpr int kReplicates = 5000;
+/// What is left of an extended model may not look, at this level, as if a further effect were needed: looser
+/// than kRejects, for a name should leave nothing behind.
+inline constexpr double kLeavesNothing = 0.01;
+/// Difference of BIC by which a name must be better than any other: 6 is "strong" by Kass & Raftery (1995),
+/// odds of 20 to 1.
+inline constexpr double kMargin = 6.0;
+/// Effects that are refitted, the best by score first: a score is taken at zero of the amplitude and may
+/// misjudge a strong effect's rank, hardly by so many places.
+inline constexpr std::size_t kRefitted = 6;
+/// Effects that are tried two at a time.
+inline constexpr std::size_t kPaired = 4;
+/// Share of its size to which a name's shape parameters are tried, and its inverse, in the score.
+inline constexpr double kShapeStep = 3.0;
+
+}  // namespace isotach::discovery

@@ -1,0 +1,141 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/score_test.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "discovery/limits.hpp"
+
+namespace isotach::discovery {
+
+namespace {
+
+constexpr double kNothingLeft = 1e-6;  // of a signature's norm: round-off of the projection
+constexpr unsigned kSeed = 1;
+
+/// The effect with its shape parameters at a factor of their typical values, at amplitude zero.
+std::vector<effects::Chosen<double>> shapes_of(const effects::Effect& effect) {
+  std::vector<effects::Chosen<double>> shapes{effects::with_amplitude(effect, 0.0)};
+  for (std::size_t k = 1; k < effect.parameters.size(); ++k) {
+    const effects::EffectParameter& info = effect.parameters[k];
+    if (!info.searched()) continue;
+    for (const double factor : {kShapeStep, 1.0 / kShapeStep}) {
+      effects::Chosen<double> shape = effects::with_amplitude(effect, 0.0);
+      shape.si[k] =
+          std::clamp(factor * info.typical_si(), info.lower_si() + 1e-3 * info.typical_si(), info.upper_si());
+      shapes.push_back(shape);
+    }
+  }
+  return shapes;
+}
+
+bool one_sided(const effects::Effect& effect) {
+  return effect.parameters[0].lower >= 0.0;
+}
+
+/// Whether an effect's signature may count: with its sign, unless both are admissible.
+double counted(const Signature& signature, double z) {
+  return one_sided(*signature.effect) ? std::max(z, 0.0) : std::abs(z);
+}
+
+/// The largest of the signatures' squares under noise.
+std::vector<double> null_of(const std::vector<Signature>& signatures) {
+  const auto n = static_cast<Eigen::Index>(signatures.size());
+  if (n == 0) return {};
+  Eigen::MatrixXd all(signatures.front().unit.size(), n);
+  for (Eigen::Index k = 0; k < n; ++k) all.col(k) = signatures[static_cast<std::size_t>(k)].unit;
+  // signatures are nearly dependent: a root of their correlation by eigenvalues
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(all.transpose() * all);
+  const Eigen::MatrixXd root =
+      solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::vector<double> largest;
+  Eigen::VectorXd noise(n);
+  for (int b = 0; b < kReplicates; ++b) {
+    for (double& value : noise) value = normal(random);
+    const Eigen::VectorXd z = root * noise;
+    double most = 0.0;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double size = counted(signatures[static_cast<std::size_t>(k)], z[k]);
+      most = std::max(most, size * size);
+    }
+    largest.push_back(most);
+  }
+  std::sort(largest.begin(), largest.end());
+  return largest;
+}
+
+const Signature* best_signature(const ScoreTest& test, const effects::Effect& effect) {
+  const Signature* best = nullptr;
+  for (const Signature& signature : test.signatures) {
+    if (signature.effect != &effect) continue;
+    if (best == nullptr || counted(signature, signature.z) > counted(*best, best->z)) best = &signature;
+  }
+  return best;
+}
+
+}  // namespace
+
+double ScoreTest::p_value(double largest) const {
+  const auto above = null_largest.end() - std::lower_bound(null_largest.begin(), null_largest.end(), largest);
+  return (static_cast<double>(above) + 1.0) / (static_cast<double>(null_largest.size()) + 1.0);
+}
+
+tl::expected<ScoreTest, calibration::FitFailure> score(
+    const datasets::Study& study, const Candidate& model, const std::vector<const effects::Effect*>& effects,
+    const std::vector<calibration::ExperimentWeights>& weights, int threads) {
+  const calibration::OedometerFit& fit = model.fit;
+  calibration::Problem problem = calibration::problem_of(study, fit, model.free, threads);
+  problem.set_weights(weights);
+  const auto at = problem.linearise(fit.result.main.coordinates);
+  if (!at) return tl::unexpected(calibration::FitFailure{at.error().message});
+  const auto values = static_cast<Eigen::Index>(problem.value_count());
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(at->jacobian);
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(at->jacobian.rows(), qr.rank());
+
+  ScoreTest test;
+  for (const effects::Effect* effect : effects) {
+    double best = 0.0;
+    for (const effects::Chosen<double>& shape : shapes_of(*effect)) {
+      const auto on = fit.effects.with(shape);
+      if (!on) continue;  // a shape beyond its bounds
+      const effects::ParameterRef amplitude{effect, 0};
+      const auto all = calibration::linearise_by_effects(fit.experiments, *fit.result.parameters, fit.locals,
+                                                         *on, {&amplitude, 1}, threads);
+      if (!all) return tl::unexpected(calibration::FitFailure{all.error().message});
+      std::vector<experiments::Linearisation> fitted;
+      for (std::size_t i = 0; i < all->size(); ++i) {
+        if (!fit.experiments[i]->held_out()) fitted.push_back((*all)[i]);
+      }
+      Eigen::VectorXd signature = Eigen::VectorXd::Zero(at->jacobian.rows());
+      signature.head(values) = problem.weighted(fitted).jacobian.col(0);
+      const double norm = signature.norm();
+      signature -= basis * (basis.transpose() * signature);
+      Signature found{effect, Eigen::VectorXd::Zero(signature.size()), 1.0, 0.0};
+      if (norm > 0.0 && signature.norm() > kNothingLeft * norm) {
+        found.absorbed = std::sqrt(std::max(0.0, 1.0 - signature.squaredNorm() / (norm * norm)));
+        found.unit = signature.normalized();
+        found.z = -found.unit.dot(at->residuals);
+      }
+      const double size = counted(found, found.z);
+      best = std::max(best, size * size);
+      test.signatures.push_back(std::move(found));
+    }
+    test.effects.push_back(effect);
+    test.best.push_back(best);
+  }
+  test.null_largest = null_of(test.signatures);
+  return test;
+}
+
+double likeness(const ScoreTest& test, const effects::Effect& a, const effects::Effect& b) {
+  const Signature* one = best_signature(test, a);
+  const Signature* other = best_signature(test, b);
+  return one == nullptr || other == nullptr ? 0.0 : std::abs(one->unit.dot(other->unit));
+}
+
+}  // namespace isotach::discovery

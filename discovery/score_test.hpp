@@ -1,0 +1,39 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// What each effect of the catalogue would do to residuals, at zero of its amplitude: Rao's score test.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "discovery/candidate.hpp"
+
+namespace isotach::discovery {
+
+/// An effect's signature: d residuals/d amplitude, whitened, freed of what the base's parameters can do.
+struct Signature {
+  const effects::Effect* effect;
+  Eigen::VectorXd unit;   ///< of unit norm; zero where the base can do all of it
+  double absorbed = 0.0;  ///< share of the signature's norm that the base's parameters take up, in [0, 1]
+  double z = 0.0;  ///< how many standard deviations of noise the residuals lie along it, signed: positive
+                   ///< where the admissible amplitude improves the fit
+};
+
+struct ScoreTest {
+  std::vector<Signature> signatures;  ///< of every effect several, by its shape
+  /// The largest of z^2 of the signatures of one effect, in the order of `effects`.
+  std::vector<const effects::Effect*> effects;
+  std::vector<double> best;
+  /// Probability that noise makes the largest of all as large, by parametric bootstrap.
+  [[nodiscard]] double p_value(double largest) const;
+  std::vector<double> null_largest;  ///< sorted, of the bootstrap
+};
+
+/// Scores of `effects` on top of `model`, by `weights` (of the fitted tests, as NoiseFit's).
+[[nodiscard]] tl::expected<ScoreTest, calibration::FitFailure> score(
+    const datasets::Study& study, const Candidate& model, const std::vector<const effects::Effect*>& effects,
+    const std::vector<calibration::ExperimentWeights>& weights, int threads);
+
+/// |cosine| of the best signatures of two effects.
+[[nodiscard]] double likeness(const ScoreTest& test, const effects::Effect& a, const effects::Effect& b);
+
+}  // namespace isotach::discovery

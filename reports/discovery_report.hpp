@@ -1,0 +1,20 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// What a discovery found: the page and result.json.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "discovery/discover.hpp"
+#include "reports/page.hpp"
+#include "reports/run_info.hpp"
+
+namespace isotach::reports {
+
+[[nodiscard]] Page discovery_report(const RunInfo& run, const datasets::Study& study,
+                                    const discovery::Discovery& found);
+
+/// Under "oedometer" where the study has slump tests too, which are not looked at.
+[[nodiscard]] nlohmann::ordered_json result_json(const RunInfo& run, const datasets::Study& study,
+                                                 const discovery::Discovery& found);
+
+}  // namespace isotach::reports
