@@ -11,8 +11,10 @@
 #include "calibration/calibrate.hpp"
 #include "datasets/input_error.hpp"
 #include "datasets/study.hpp"
+#include "discovery/discover.hpp"
 #include "reports/calibration_report.hpp"
 #include "reports/curves_csv.hpp"
+#include "reports/discovery_report.hpp"
 #include "reports/oedometer_report.hpp"
 #include "reports/parameters_toml.hpp"
 #include "reports/result_json.hpp"
@@ -159,10 +161,26 @@ int calibrate(const CommonOptions& options, const JournalLine& journal_line) {
     progress.update(fraction, what);
   };
   const auto result = calibration::calibrate(study, calibrate_options);
+  if (!result) return failed(output, info_of(run, journal), result.error(), journal, options.quiet);
+  discovery::DiscoverOptions discover_options;
+  discover_options.threads = options.threads;
+  discover_options.control.stop = &interrupted();
+  discover_options.progress = [&](double, const std::string& what) {
+    progress.update(0.98, "discovery: " + what);
+  };
+  const auto found = discovery::discover_oedometer(study, discover_options);
   const reports::RunInfo info = info_of(run, journal);
-  if (!result) return failed(output, info, result.error(), journal, options.quiet);
+  if (!found) return failed(output, info, found.error(), journal, options.quiet);
   progress.finish();
-  return publish(output, options, info, study, *result, reports::calibration_report);
+  reports::Page page = reports::calibration_report(info, study, *result);
+  reports::add_discovery(page, *found);
+  output.write_text("report.html", page.html());
+  output.write_text("parameters.toml", reports::parameters_toml(info, *result));
+  reports::write_curves(output, *result);
+  auto json = reports::result_json(info, study, *result);
+  json["discover"] = {{"oedometer", reports::discovery_json(*found)}, {"slump", nullptr}};
+  output.write_json("result.json", json);
+  return end_done(output, options.quiet);
 }
 
 /// A command on a study that keeps a journal of its simulations.

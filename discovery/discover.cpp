@@ -247,8 +247,9 @@ class Search {
       return std::nullopt;
     }
     const Trial& best = found_.trials.front();
-    const double lead = found_.trials.size() > 1 ? found_.trials[1].candidate.bic - best.candidate.bic
-                                                 : std::numeric_limits<double>::infinity();
+    double next = found_.base.candidate.bic;
+    if (found_.trials.size() > 1) next = std::min(next, found_.trials[1].candidate.bic);
+    const double lead = next - best.candidate.bic;
     const auto require = [this](bool holds, std::string text) {
       found_.conditions.push_back({std::move(text), holds});
       return holds;
@@ -261,9 +262,10 @@ class Search {
       found_.verdict = Verdict::unknown;
       return std::nullopt;
     }
-    const bool leads = require(lead >= kMargin, fmt::format("its BIC is lower than the next by {:.1f} "
-                                                            "({} asked)",
-                                                            lead, kMargin));
+    const bool leads = require(
+        lead >= kMargin, fmt::format("its BIC is lower than that of any other, the base included, by {:.1f} "
+                                     "({} asked)",
+                                     lead, kMargin));
     std::size_t fitted = 0;
     for (const auto& test : study_.oedometer_tests) fitted += test.hold_out ? 0U : 1U;
     if (fitted > 1) {
@@ -281,11 +283,16 @@ class Search {
       found_.chosen = 0;
       return std::nullopt;
     }
-    found_.verdict = Verdict::ambiguous;
     for (std::size_t k = 0; k < found_.trials.size(); ++k) {
       const Trial& trial = found_.trials[k];
       if (trial.candidate.bic < best.candidate.bic + kMargin) found_.equivalent.push_back(k);
     }
+    if (found_.equivalent.size() < 2) {  // too little better than the base, and nothing beside it
+      found_.equivalent.clear();
+      found_.verdict = Verdict::unknown;
+      return std::nullopt;
+    }
+    found_.verdict = Verdict::ambiguous;
     found_.next = tell_apart(study_, best.candidate, found_.trials[1].candidate);
     return std::nullopt;
   }

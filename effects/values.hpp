@@ -55,9 +55,8 @@ class Values {
     const auto place = [](const Effect* effect) {
       return std::find(catalogue().begin(), catalogue().end(), effect) - catalogue().begin();
     };
-    std::sort(chosen.begin(), chosen.end(), [&](const Chosen<S>& a, const Chosen<S>& b) {
-      return place(a.effect) < place(b.effect);
-    });
+    std::sort(chosen.begin(), chosen.end(),
+              [&](const Chosen<S>& a, const Chosen<S>& b) { return place(a.effect) < place(b.effect); });
     return Values(std::move(chosen));
   }
 

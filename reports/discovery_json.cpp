@@ -39,6 +39,8 @@ ordered_json trial_json(const discovery::Trial& trial) {
           {"adequate", trial.adequate}};
 }
 
+}  // namespace
+
 ordered_json discovery_json(const discovery::Discovery& found) {
   ordered_json json;
   json["verdict"] = std::string(name_of(found.verdict));
@@ -82,8 +84,6 @@ ordered_json discovery_json(const discovery::Discovery& found) {
   }
   return json;
 }
-
-}  // namespace
 
 ordered_json result_json(const RunInfo& run, const datasets::Study& study,
                          const discovery::Discovery& found) {

@@ -209,7 +209,34 @@ Figure residuals_figure(const Discovery& found, std::size_t test) {
   return figure;
 }
 
+void add_explanations(Page& page, const Discovery& found) {
+  page.table(trials_table(found));
+  if (!found.conditions.empty()) {
+    Table table{.caption = "Conditions of a name.", .header = {"condition", "holds"}};
+    for (const discovery::Condition& condition : found.conditions) {
+      table.rows.push_back({condition.text, condition.holds ? "yes" : "no"});
+    }
+    page.table(std::move(table));
+  }
+  if (!found.not_tried.empty()) {
+    Table table{.caption = "Effects that were not fitted.", .header = {"effect", "why"}};
+    for (const auto& [effect, why] : found.not_tried) table.rows.push_back({std::string(effect->name), why});
+    page.table(std::move(table));
+  }
+}
+
 }  // namespace
+
+void add_discovery(Page& page, const Discovery& found) {
+  add_verdict(page, found);
+  page.section("Discovery: oedometer tests");
+  page.paragraph(
+      "Whether the model suffices for the oedometer tests, and which effect of the catalogue is missing if "
+      "it "
+      "does not; isotach discover has the whole of it.");
+  page.table(disagreement_table(found, kStagesOnFirstPage));
+  add_explanations(page, found);
+}
 
 Page discovery_report(const RunInfo& run, const datasets::Study& study, const Discovery& found) {
   Page page("Discovery", subtitle(run));
@@ -233,19 +260,7 @@ Page discovery_report(const RunInfo& run, const datasets::Study& study, const Di
         found, static_cast<std::size_t>(worst - found.base.candidate.fit.experiments.begin())));
   }
   page.section("Explanations");
-  page.table(trials_table(found));
-  if (!found.conditions.empty()) {
-    Table table{.caption = "Conditions of a name.", .header = {"condition", "holds"}};
-    for (const discovery::Condition& condition : found.conditions) {
-      table.rows.push_back({condition.text, condition.holds ? "yes" : "no"});
-    }
-    page.table(std::move(table));
-  }
-  if (!found.not_tried.empty()) {
-    Table table{.caption = "Effects that were not fitted.", .header = {"effect", "why"}};
-    for (const auto& [effect, why] : found.not_tried) table.rows.push_back({std::string(effect->name), why});
-    page.table(std::move(table));
-  }
+  add_explanations(page, found);
   page.section("Scores");
   page.table(score_table(found));
   page.table(likeness_table(found));
