@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <stdexcept>
 
 #include "calibration/fit_oedometer.hpp"
 #include "calibration/fit_slump.hpp"
@@ -45,6 +46,20 @@ tl::expected<GaugeChoice, FitFailure> gauge_of(const datasets::Study& study) {
   return GaugeChoice{datasets::Gauge::crs_rate, kAnyRate * study.material.D_r() / steady->viscous_rate};
 }
 
+/// The study's oedometer tests that are fitted.
+tl::expected<Experiments, FitFailure> experiments_of(const datasets::Study& study) {
+  Experiments all;
+  for (const auto& test : study.oedometer_tests) {
+    if (test.hold_out) continue;
+    try {
+      all.push_back(std::make_shared<experiments::OedometerExperiment>(test));
+    } catch (const std::invalid_argument& error) {  // nothing is left to be compared
+      return tl::unexpected(FitFailure{error.what()});
+    }
+  }
+  return all;
+}
+
 /// Distance between neighbouring points of the study's outlines.
 double point_spacing(const datasets::Study& study) {
   double length = 0.0;
@@ -71,10 +86,11 @@ Eigen::MatrixXd information_of(const Eigen::MatrixXd& jacobian, Eigen::Index siz
 /// The work of rate_candidates, step by step.
 class Rating {
  public:
-  Rating(const datasets::Study& study, const NextTestOptions& options, const GaugeChoice& gauge)
+  Rating(const datasets::Study& study, const NextTestOptions& options, const GaugeChoice& gauge,
+         Experiments oedometers)
       : study_(study),
         options_(options),
-        oedometers_(experiments_of(study)),
+        oedometers_(std::move(oedometers)),
         parametrisation_(study.material, wanted(study.fit), {study.fit.bounds, study.fit.priors}, gauge,
                          oedometers_),
         x_(parametrisation_.start()),
@@ -172,15 +188,6 @@ class Rating {
   }
 
  private:
-  static Experiments experiments_of(const datasets::Study& study) {
-    Experiments all;
-    for (const auto& test : study.oedometer_tests) {
-      if (test.hold_out) continue;
-      all.push_back(std::make_shared<experiments::OedometerExperiment>(test));
-    }
-    return all;
-  }
-
   void tell(double fraction, const std::string& what) const {
     if (options_.progress) options_.progress(fraction, what);
   }
@@ -439,7 +446,9 @@ tl::expected<NextTest, FitFailure> rate_candidates(const datasets::Study& study,
                                                    const NextTestOptions& options) {
   const auto gauge = gauge_of(study);
   if (!gauge) return tl::unexpected(gauge.error());
-  Rating rating(study, options, *gauge);
+  const auto oedometers = experiments_of(study);
+  if (!oedometers) return tl::unexpected(oedometers.error());
+  Rating rating(study, options, *gauge, *oedometers);
   if (auto failure = rating.add_oedometer_tests()) return tl::unexpected(*failure);
   if (auto failure = rating.add_slump_tests(candidates)) return tl::unexpected(*failure);
   rating.rate(candidates);

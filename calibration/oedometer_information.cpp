@@ -1,6 +1,7 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/oedometer_information.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -61,13 +62,14 @@ tl::expected<datasets::OedometerTest, std::string> test_of(const datasets::Candi
   test.initial_K0 = candidate.K0.value_or(setting.K0);
   test.initial_axial_stress = candidate.axial_stress.value_or(setting.axial_stress);
   test.noise = setting.noise;
+  const int readings = std::max(4, candidate.readings / static_cast<int>(candidate.stages.size()));
   double time = 0.0;
   double strain = 0.0;
   for (const datasets::CandidateStage& stage : candidate.stages) {
     const bool relaxes = stage.stage == datasets::Stage::relax;
     const double duration = relaxes ? stage.duration : std::abs(stage.strain - strain) / stage.rate;
-    for (int i = 1; i <= candidate.readings; ++i) {
-      const double share = static_cast<double>(i) / candidate.readings;
+    for (int i = 1; i <= readings; ++i) {
+      const double share = static_cast<double>(i) / readings;
       datasets::OedometerRow row{};
       row.line = test.record.rows.size() + 1;
       row.time = time + duration * (relaxes ? std::pow(kFirstReading, 1.0 - share) : share);

@@ -42,7 +42,7 @@ struct CandidateOedometer {
   std::string name;
   std::string programme;
   std::vector<CandidateStage> stages;
-  int readings;                        ///< a stage
+  int readings;                        ///< of the whole test, as many in each stage, at least 4
   std::optional<double> void_ratio;    ///< at the start (-)
   std::optional<double> axial_stress;  ///< at the start (Pa)
   std::optional<double> K0;            ///< at the start (-)

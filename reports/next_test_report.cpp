@@ -269,7 +269,7 @@ void add_grounds(Page& page, const NextTest& next) {
   if (next.stress_noise) {
     page.paragraph(fmt::format(
         "Oedometer candidates have the noise of the study's noisiest channel of stress: {} % of the stress, "
-        "correlation {} of neighbouring readings.",
+        "correlation {} of neighbouring readings. Each is read 200 times unless its entry says otherwise.",
         format_number(kPercent * *next.stress_noise, 2), format_number(next.stress_correlation, 2)));
   }
   add_simulation_error(page, next.simulation_error);

@@ -151,7 +151,7 @@ TEST(NextTestOfOedometers, ScatterAsForetoldWhereTheyAreMadeAndFitted) {
                                     {load, 0.2, 1e-7, 0.0},
                                     {relax, 0.2, 0.0, 1e5},
                                     {load, 0.25, 1e-6, 0.0}},
-                                   20,
+                                   120,
                                    1.6,
                                    20e3,
                                    0.8});
