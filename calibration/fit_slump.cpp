@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numbers>
@@ -158,13 +159,44 @@ experiments::Simulate plain_simulation(const std::atomic<bool>* stop) {
   };
 }
 
+namespace {
+
+constexpr double kCoordinateTolerance = 0.01;  // simulations carry noise of about this size
+constexpr double kCostTolerance = 1e-3;
+
+/// One search on simulations from the problem's start.
+OptimiserResult search_by(datasets::SlumpRoute route, const Problem& problem,
+                          const SlumpFitOptions& options) {
+  const std::vector<double> start = problem.parametrisation().start();
+  if (route == datasets::SlumpRoute::ceres) {
+    CeresOptions ceres;
+    // an iteration is a linearisation: an evaluation and two for each coordinate
+    ceres.max_iterations = std::max(1, options.max_evaluations / (1 + 2 * static_cast<int>(start.size())));
+    ceres.function_tolerance = kCostTolerance;
+    // Ceres takes it relative to the length of x
+    const double length = Eigen::Map<const Eigen::VectorXd>(start.data(), std::ssize(start)).norm();
+    ceres.parameter_tolerance = kCoordinateTolerance / std::max(1.0, length);
+    return minimise_with_ceres(problem, start, ceres, options.control);
+  }
+  NloptOptions nlopt;
+  nlopt.search = route == datasets::SlumpRoute::sbplx ? LocalSearch::sbplx : LocalSearch::bobyqa;
+  nlopt.first_step = options.first_step;
+  nlopt.first_step_C_1 = options.first_step_C_1;
+  nlopt.coordinate_tolerance = kCoordinateTolerance;
+  nlopt.cost_tolerance = kCostTolerance;
+  nlopt.max_evaluations = options.max_evaluations;
+  return minimise_with_nlopt(problem, start, nlopt, options.control);
+}
+
+}  // namespace
+
 tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
                                                    const model::Parameters<double>& start,
                                                    const std::vector<model::ParameterId>& wanted,
                                                    const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
   const experiments::Simulate simulate = counted(options, tally);
-  SlumpSearch found{start, {}, {}, {}, {}};
+  SlumpSearch found{start, {}, {}, {}, {}, {}};
   if (options.simulation_error) {
     found.simulation_error = *options.simulation_error;
   } else {
@@ -176,22 +208,29 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
   const SlumpExperiments all = make_experiments(study, simulate, found.simulation_error);
   const Problem problem = make_problem(all, study, start, wanted, options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
-
-  NloptOptions nlopt;
-  nlopt.first_step = options.first_step;
-  nlopt.first_step_C_1 = options.first_step_C_1;
-  nlopt.coordinate_tolerance = 0.01;  // simulations carry noise of about this size
-  nlopt.cost_tolerance = 1e-3;
-  nlopt.max_evaluations = options.max_evaluations;
-  OptimiserResult search = minimise_with_nlopt(problem, parametrisation.start(), nlopt, options.control);
-  if (search.interrupted) return tl::unexpected(FitFailure{"interrupted", true});
+  for (const datasets::SlumpRoute route : options.routes) {
+    const long before = tally->counts().total();
+    OptimiserResult search = search_by(route, problem, options);
+    search.simulations = tally->counts().total() - before;
+    if (search.interrupted) return tl::unexpected(FitFailure{"interrupted", true});
+    found.others.push_back(std::move(search));
+  }
+  const auto best =
+      std::min_element(found.others.begin(), found.others.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.trace.empty(), a.cost) < std::pair(b.trace.empty(), b.cost);
+      });
+  OptimiserResult search = std::move(*best);
+  found.others.erase(best);
   if (search.trace.empty()) {
     return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
   }
   found.parameters = *parametrisation.at(search.coordinates);
   found.search = std::move(search);
   found.runs = tally->counts();
-  if (!found.search.converged) found.warnings.push_back("NLopt stopped early: " + found.search.termination);
+  if (!found.search.converged) {
+    found.warnings.push_back(
+        fmt::format("{} stopped early: {}", found.search.route, found.search.termination));
+  }
   if (found.search.failed_evaluations > 0) {
     found.warnings.push_back(fmt::format("{} of {} evaluations failed and were refused; the last: {}",
                                          found.search.failed_evaluations, found.search.evaluations,
@@ -270,6 +309,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   result.free = problem.parametrisation().free();
   result.coordinates = problem.parametrisation().coordinates();
   result.main = found.search;
+  fit.other_routes = found.others;
   result.warnings = found.warnings;
   result.parameters = found.parameters;
 
@@ -337,9 +377,11 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
 tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study,
                                              const model::Parameters<double>& start,
                                              const SlumpFitOptions& options) {
-  const auto found = search_slump(study, start, study.fit.slump, options);
+  SlumpFitOptions by_study = options;
+  by_study.routes = study.fit.slump_routes;
+  const auto found = search_slump(study, start, study.fit.slump, by_study);
   if (!found) return tl::unexpected(found.error());
-  return assess_slump(study, *found, study.fit.slump, options);
+  return assess_slump(study, *found, study.fit.slump, by_study);
 }
 
 }  // namespace isotach::calibration

@@ -26,8 +26,9 @@ struct SlumpFit {
   double rms_mould_gone = 0.0;               ///< m, over all tests, held-out ones included
   mpm::RunCounts runs;                       ///< simulations by how they ended, those of the search included
   SimulationError simulation_error;
-  std::vector<NumericalShift> shifts;  ///< of the answer by other numerics
-  std::optional<SlumpMap> map;         ///< where it was asked for
+  std::vector<NumericalShift> shifts;         ///< of the answer by other numerics
+  std::optional<SlumpMap> map;                ///< where it was asked for
+  std::vector<OptimiserResult> other_routes;  ///< on simulations, beside the one whose answer is taken
 };
 
 /// What a slump fit is doing, in the order in which it does it.
@@ -41,6 +42,8 @@ struct SlumpFitOptions {
   int max_evaluations = 40;
   double first_step = 0.2;  ///< of logarithmic coordinates
   double first_step_C_1 = 0.08;
+  /// Searches on simulations, one after the other from the same start; the best answer is taken.
+  std::vector<datasets::SlumpRoute> routes{datasets::SlumpRoute::bobyqa};
   OptimiserControl control;
   experiments::Simulate simulate;  ///< where empty, mpm::run_slump until control.stop
   /// Measured at the start values where absent.
@@ -57,14 +60,15 @@ struct SlumpFitOptions {
 /// What a search found, before its uncertainty and the comparison with all tests are worked out.
 struct SlumpSearch {
   model::Parameters<double> parameters;
-  OptimiserResult search;
-  mpm::RunCounts runs;  ///< simulations by how they ended
+  OptimiserResult search;               ///< the route that ended best
+  std::vector<OptimiserResult> others;  ///< the other routes that were asked for
+  mpm::RunCounts runs;                  ///< simulations by how they ended
   SimulationError simulation_error;
   std::vector<std::string> warnings;
 };
 
-/// Moves `wanted` from `start` to fit the study's slump tests that are not held out, with NLopt; tests of one
-/// evaluation run in parallel.
+/// Moves `wanted` from `start` to fit the study's slump tests that are not held out; tests of one evaluation
+/// run in parallel.
 [[nodiscard]] tl::expected<SlumpSearch, FitFailure> search_slump(
     const datasets::Study& study, const model::Parameters<double>& start,
     const std::vector<model::ParameterId>& wanted, const SlumpFitOptions& options);
@@ -77,7 +81,7 @@ struct SlumpSearch {
                                                               const std::vector<model::ParameterId>& wanted,
                                                               const SlumpFitOptions& options);
 
-/// Search and assessment of the study's [fit] slump parameters.
+/// Search, by the study's routes, and assessment of its [fit] slump parameters.
 [[nodiscard]] tl::expected<SlumpFit, FitFailure> fit_slump(const datasets::Study& study,
                                                            const model::Parameters<double>& start,
                                                            const SlumpFitOptions& options);

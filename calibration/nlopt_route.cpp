@@ -172,7 +172,8 @@ OptimiserResult search_globally(const Problem& problem, GlobalSearch search, con
 OptimiserResult minimise_with_nlopt(const Problem& problem, const std::vector<double>& start,
                                     const NloptOptions& options, const OptimiserControl& control) {
   OptimiserResult result;
-  result.route = start.size() > 1 ? "NLopt (BOBYQA)" : "NLopt (COBYLA)";
+  const bool simplex = options.search == LocalSearch::sbplx;
+  result.route = simplex ? "NLopt (SBPLX)" : start.size() > 1 ? "NLopt (BOBYQA)" : "NLopt (COBYLA)";
   result.coordinates = start;
   result.cost = kRefused;
   const std::vector<double> lower = problem.parametrisation().lower();
@@ -180,7 +181,10 @@ OptimiserResult minimise_with_nlopt(const Problem& problem, const std::vector<do
   const auto dimension = static_cast<unsigned>(start.size());
   double shrink = 1.0;
   for (int run = 0; run <= options.restarts && !result.interrupted; ++run, shrink *= kShorterStep) {
-    nlopt::opt optimiser(dimension > 1 ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, dimension);
+    nlopt::opt optimiser(simplex         ? nlopt::LN_SBPLX
+                         : dimension > 1 ? nlopt::LN_BOBYQA
+                                         : nlopt::LN_COBYLA,
+                         dimension);
     optimiser.set_lower_bounds(lower);
     optimiser.set_upper_bounds(upper);
     std::vector<double> steps;

@@ -41,6 +41,7 @@ struct OptimiserResult {
   std::vector<double> coordinates;
   double cost = 0.0;
   int evaluations = 0;
+  long simulations = 0;        ///< of slump tests behind them, where they were counted; else 0
   int failed_evaluations = 0;  ///< predictions that could not be made; such points are refused
   std::string last_failure;
   std::vector<TracePoint> trace;  ///< every improvement
@@ -59,7 +60,14 @@ struct CeresOptions {
                                                   const CeresOptions& options,
                                                   const OptimiserControl& control);
 
+/// Local searches of NLopt within bounds.
+enum class LocalSearch {
+  bobyqa,  ///< quadratic models in a trust region; COBYLA for a single coordinate, which BOBYQA does not take
+  sbplx    ///< Nelder and Mead's simplex on subspaces (Rowan 1990)
+};
+
 struct NloptOptions {
+  LocalSearch search = LocalSearch::bobyqa;
   double first_step = 0.1;  ///< of logarithmic coordinates
   double first_step_C_1 = 0.05;
   double coordinate_tolerance = 1e-6;  ///< absolute, of each coordinate
@@ -90,8 +98,7 @@ struct GlobalOptions {
                                               const std::vector<double>& start, const GlobalOptions& options,
                                               const OptimiserControl& control);
 
-/// BOBYQA (quadratic models in a trust region, bounds) from `start`; COBYLA for a single coordinate, which
-/// BOBYQA does not take.
+/// A local search from `start`.
 [[nodiscard]] OptimiserResult minimise_with_nlopt(const Problem& problem, const std::vector<double>& start,
                                                   const NloptOptions& options,
                                                   const OptimiserControl& control);

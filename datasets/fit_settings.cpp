@@ -75,6 +75,28 @@ Wanted read_names(TomlTable& fit, std::string_view key, std::vector<ParameterId>
   return wanted;
 }
 
+std::vector<SlumpRoute> read_routes(TomlTable& fit, std::vector<SlumpRoute> defaults) {
+  constexpr std::string_view kKey = "slump_routes";
+  constexpr std::array<std::string_view, 3> kNames{"bobyqa", "sbplx", "ceres"};
+  constexpr std::array<SlumpRoute, 3> kRoutes{SlumpRoute::bobyqa, SlumpRoute::sbplx, SlumpRoute::ceres};
+  const std::string accepted =
+      fmt::format("names among {}, each once, at least one", fmt::join(kNames, ", "));
+  const auto names = fit.texts_if(kKey, accepted);
+  if (!names) return defaults;
+  if (names->empty()) throw fit.error(kKey, "an empty list", accepted);
+  std::vector<SlumpRoute> routes;
+  for (const std::string& name : *names) {
+    const auto found = std::find(kNames.begin(), kNames.end(), name);
+    if (found == kNames.end()) throw fit.error(kKey, fmt::format("\"{}\" is no route", name), accepted);
+    const SlumpRoute route = kRoutes[static_cast<std::size_t>(found - kNames.begin())];
+    if (std::find(routes.begin(), routes.end(), route) != routes.end()) {
+      throw fit.error(kKey, fmt::format("\"{}\" occurs twice", name), accepted);
+    }
+    routes.push_back(route);
+  }
+  return routes;
+}
+
 bool contains(const std::vector<ParameterId>& parameters, ParameterId id) {
   return std::find(parameters.begin(), parameters.end(), id) != parameters.end();
 }
@@ -170,6 +192,7 @@ FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material,
   settings.oedometer = std::move(oedometer.material);
   settings.oedometer_effects = std::move(oedometer.effects);
   settings.slump = read_names(*fit, "slump", settings.slump, {}).material;
+  settings.slump_routes = read_routes(*fit, settings.slump_routes);
   constexpr std::array<std::string_view, 3> kGauges{"crs-rate", "fixed", "none"};
   constexpr std::array<Gauge, 3> kGaugeValues{Gauge::crs_rate, Gauge::fixed, Gauge::none};
   settings.gauge = kGaugeValues[fit->choice_if("gauge", kGauges).value_or(0)];

@@ -49,12 +49,20 @@ struct FreeEffect {
   std::optional<Bounds> bounds;  ///< SI; nothing: those of the catalogue
 };
 
+/// How a slump fit searches on simulations.
+enum class SlumpRoute {
+  bobyqa,  ///< NLopt's BOBYQA (COBYLA for a single parameter)
+  sbplx,   ///< NLopt's SBPLX
+  ceres    ///< Ceres, its derivatives by differences of simulations on the same grid
+};
+
 /// [fit]
 struct FitSettings {
   std::vector<model::ParameterId> oedometer{model::ParameterId::e100, model::ParameterId::lambda,
                                             model::ParameterId::kappa, model::ParameterId::D_r};
   std::vector<FreeEffect> oedometer_effects;  ///< of effects that are on
   std::vector<model::ParameterId> slump{model::ParameterId::I_v, model::ParameterId::C_1};
+  std::vector<SlumpRoute> slump_routes{SlumpRoute::bobyqa};  ///< of fit-slump, each once, at least one
   Gauge gauge = Gauge::crs_rate;
   std::optional<double>
       reference_rate;  ///< axial strain rate (1/s); default: of the first loading stage fitted

@@ -290,6 +290,12 @@ Table route_table(const FitResult& result, const std::vector<OptimiserResult>& f
   row("evaluations", [](const OptimiserResult& route) { return fmt::format("{}", route.evaluations); });
   row("of them failed",
       [](const OptimiserResult& route) { return fmt::format("{}", route.failed_evaluations); });
+  const auto counted = [](const OptimiserResult* route) { return route->simulations > 0; };
+  if (std::any_of(routes.begin(), routes.end(), counted)) {
+    row("simulations", [](const OptimiserResult& route) {
+      return route.simulations > 0 ? fmt::format("{}", route.simulations) : std::string(kMissing);
+    });
+  }
   row("converged", [](const OptimiserResult& route) { return std::string(route.converged ? "yes" : "no"); });
   for (const OptimiserResult* route : routes) {
     table.notes.push_back(fmt::format("{} ended with: {}", route->route, route->termination));

@@ -29,6 +29,11 @@ ordered_json slump_fit_json(const datasets::Study& study, const calibration::Slu
     test["simulation"] = slump_json(read.setup, comparison.simulation);
     json["tests"].push_back(std::move(test));
   }
+  json["routes"][0]["simulations"] = fit.result.main.simulations;
+  for (const calibration::OptimiserResult& route : fit.other_routes) {
+    json["routes"].push_back(route_json(fit.result, route));
+    json["routes"].back()["simulations"] = route.simulations;
+  }
   json["rms_mould_gone_mm"] = json_number(1e3 * fit.rms_mould_gone);
   json["simulations"] = fit.runs.total();
   json["simulations_by_status"] = ordered_json::object();

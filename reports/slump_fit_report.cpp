@@ -178,7 +178,9 @@ void add_slump_fit_section(Page& page, const datasets::Study& study, const Slump
   std::size_t i = figures.size() % 2;
   if (i == 1) page.figure(std::move(figures.front()));
   for (; i + 1 < figures.size(); i += 2) page.figures(std::move(figures[i]), std::move(figures[i + 1]));
-  page.table(route_table(result, fit.map ? fit.map->routes : std::vector<calibration::OptimiserResult>{}));
+  std::vector<calibration::OptimiserResult> further = fit.other_routes;
+  if (fit.map) further.insert(further.end(), fit.map->routes.begin(), fit.map->routes.end());
+  page.table(route_table(result, further));
 
   const std::vector<NamedRun> runs = runs_of(fit);
   if (!runs.empty()) page.paragraph(numerics_text(runs.front()));

@@ -69,6 +69,27 @@ TEST_P(FitSlump, RecoversTheIvOfTheTruth) {
   }
 }
 
+TEST(FitSlumpRoutes, EndAtTheSameAnswerAndEachIsCounted) {
+  datasets::Study study = study_of({small_slump("wet", 5.0, 1), small_slump("dry", 4.7, 2)});
+  SlumpFitOptions options;
+  using enum datasets::SlumpRoute;
+  options.routes = {bobyqa, sbplx, ceres};
+  const auto found = search_slump(study, tests::seed_mud_with(I_v, 1.3 * kTrueIv), {I_v}, options);
+  ASSERT_TRUE(found.has_value()) << found.error().message;
+  ASSERT_EQ(found->others.size(), 2U);
+  // two tests with four kinds of numerics besides, for the error of the simulations
+  long simulations = found->search.simulations + 8;
+  EXPECT_GT(found->search.simulations, 0);
+  for (const OptimiserResult& route : found->others) {
+    EXPECT_GE(route.cost, found->search.cost) << route.route;
+    // each search stops within 0.01 in ln I_v
+    EXPECT_NEAR(route.coordinates[0], found->search.coordinates[0], 0.02) << route.route;
+    EXPECT_GT(route.simulations, 0) << route.route;
+    simulations += route.simulations;
+  }
+  EXPECT_EQ(found->runs.total(), simulations);
+}
+
 TEST(FitSlumpAssessment, HoldsTheTruthInItsIntervalAndCallsTheFitAdequate) {
   datasets::Study study = study_of({small_slump("wet", 5.0, 1), small_slump("dry", 4.7, 2)});
   study.slump_tests[1].hold_out = true;
