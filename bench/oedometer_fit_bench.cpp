@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   // what is not fitted is known
   model::ParameterValues<double> values = bench::random_parameters(random).values();
   for (const auto id : {model::ParameterId::I_v, model::ParameterId::C_1}) values[id] = truth[id];
-  datasets::Study study{"synthetic", {}, *model::Parameters<double>::create(values), {}, {test}, {}, {}};
+  datasets::Study study{"synthetic", {}, *model::Parameters<double>::create(values), {}, {}, {test}, {}, {}};
   calibration::OedometerFitOptions options;
   options.depth = calibration::Depth::answer;
   std::vector<double> seconds;

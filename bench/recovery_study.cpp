@@ -95,7 +95,7 @@ Trial run(Protocol protocol, double noise, bool correlated, bool gauged_fit, std
   test.name = "synthetic";
   const bool strain_noise = protocol == Protocol::incremental;
 
-  datasets::Study study{"synthetic", {}, bench::random_parameters(random), {}, {}, {}, {}};
+  datasets::Study study{"synthetic", {}, bench::random_parameters(random), {}, {}, {}, {}, {}};
   study.fit.oedometer = {ParameterId::e100, ParameterId::lambda, ParameterId::kappa,
                          ParameterId::D_r,  ParameterId::I_v,    ParameterId::C_1};
   if (!gauged_fit) study.fit.gauge = datasets::Gauge::none;

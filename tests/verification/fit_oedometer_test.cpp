@@ -68,7 +68,7 @@ TEST_P(Recovery, FindsTheTruthWithinItsErrors) {
   datasets::OedometerTest test = bench::exact_test(GetParam(), truth, 1.5);
   bench::add_noise(test, 0.01, 0.6, random);
   test.name = "synthetic";
-  datasets::Study study{"synthetic", {}, bench::random_parameters(random), {}, {test}, {}, {}};
+  datasets::Study study{"synthetic", {}, bench::random_parameters(random), {}, {}, {test}, {}, {}};
   study.fit.oedometer = {e100, lambda, kappa, D_r, I_v, C_1};
   study.fit.starts = 4;
   const auto answer = fit(study, Depth::assessment);
