@@ -31,9 +31,12 @@ datasets::Study study_with(const effects::Values<double>& hidden, unsigned seed)
         OedometerExperiment(test, hidden).path(experiments::effects_mud(), {}, Route::cvode).value();
     for (std::size_t i = 0; i < test.record.rows.size(); ++i) {
       datasets::OedometerRow& row = test.record.rows[i];
-      row.axial_stress = path[i + 1].axial_stress * std::exp(noise(random));
-      if (row.stage == datasets::Stage::hold)
-        row.axial_strain = path[i + 1].axial_strain + 2e-5 * noise(random) / 0.005;
+      row.axial_strain = path[i + 1].axial_strain;  // behind the hold from where it ended
+      if (row.stage == datasets::Stage::hold) {     // at exactly the stress held
+        row.axial_strain += 2e-5 / 0.005 * noise(random);
+      } else {
+        row.axial_stress = path[i + 1].axial_stress * std::exp(noise(random));
+      }
     }
     study.oedometer_tests.push_back(std::move(test));
   }
@@ -47,13 +50,15 @@ effects::Values<double> friction(double mu) {
 
 TEST(FitWithAnEffect, FindsTheFrictionThatWasHidden) {
   constexpr double kHidden = 0.08;
-  const datasets::Study study = study_with(friction(kHidden), 3);
+  const datasets::Study study = study_with(friction(kHidden), 5);
   const effects::ParameterRef mu = *effects::find_parameter("ring_friction.mu");
   OedometerFitOptions options;
+  options.depth = Depth::answer;
   const auto without = fit_oedometer(study, study.material, study.fit.oedometer, options);
   ASSERT_TRUE(without) << without.error().message;
   EXPECT_FALSE(without->result.adequate);
   // from zero, where the effect is nothing
+  options.depth = Depth::assessment;
   const auto with = fit_oedometer(study, study.material, study.fit.oedometer,
                                   {friction(0.0), {{mu, std::nullopt}}}, options);
   ASSERT_TRUE(with) << with.error().message;
@@ -69,16 +74,19 @@ TEST(FitWithAnEffect, FindsTheFrictionThatWasHidden) {
   // profiles, refits and the check by NLopt know it too
   ASSERT_TRUE(with->assessment);
   EXPECT_EQ(with->assessment->profiles.size(), with->result.coordinates.size());
-  for (const Refit& refit : with->assessment->without_test) {
+  // a test of another height is foretold by the effect, if not to within the noise from one test alone
+  ASSERT_TRUE(without->assessment);
+  for (std::size_t i = 0; i < with->assessment->without_test.size(); ++i) {
+    const Refit& refit = with->assessment->without_test[i];
     EXPECT_TRUE(refit.parameters) << refit.failure;
-    EXPECT_LT(refit.rms_over_noise, kAdequate);
+    EXPECT_LT(refit.rms_over_noise, 0.7 * without->assessment->without_test[i].rms_over_noise);
   }
   EXPECT_LT(with->result.disagreement, 0.1);
   for (const std::string& warning : with->result.warnings) ADD_FAILURE() << warning;
 }
 
 TEST(FitWithAnEffect, HeldAtItsValueIsUsedAndStays) {
-  const datasets::Study study = study_with(friction(0.08), 3);
+  const datasets::Study study = study_with(friction(0.08), 5);
   OedometerFitOptions options;
   options.depth = Depth::answer;
   const auto fit = fit_oedometer(study, study.material, study.fit.oedometer, {friction(0.08), {}}, options);
@@ -101,7 +109,7 @@ TEST(EffectSensitivity, IsTheChangeOfTheWeightedResidualsAlongASmallAmplitude) {
   EXPECT_NEAR(cost_of(base->residuals), fit->result.main.cost, 1e-6 * fit->result.main.cost);
   for (const char* name : {"ring_friction", "pore_pressure", "structure"}) {
     const effects::Effect& effect = *effects::find_effect(name);
-    const double small = 1e-2 * effect.parameters[0].typical_si();
+    const double small = 1e-3 * effect.parameters[0].typical_si();
     const auto at = [&](double amplitude) {
       const auto on = *effects::Values<double>::create({effects::with_amplitude(effect, amplitude)});
       const std::vector<effects::ParameterRef> by{{&effect, 0}};
