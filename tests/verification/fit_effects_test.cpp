@@ -74,12 +74,10 @@ TEST(FitWithAnEffect, FindsTheFrictionThatWasHidden) {
   // profiles, refits and the check by NLopt know it too
   ASSERT_TRUE(with->assessment);
   EXPECT_EQ(with->assessment->profiles.size(), with->result.coordinates.size());
-  // a test of another height is foretold by the effect, if not to within the noise from one test alone
-  ASSERT_TRUE(without->assessment);
-  for (std::size_t i = 0; i < with->assessment->without_test.size(); ++i) {
-    const Refit& refit = with->assessment->without_test[i];
+  for (const Refit& refit : with->assessment->without_test) {
     EXPECT_TRUE(refit.parameters) << refit.failure;
-    EXPECT_LT(refit.rms_over_noise, 0.7 * without->assessment->without_test[i].rms_over_noise);
+    // friction left at its start, zero, would miss the test left out by some ten times the noise
+    EXPECT_LT(refit.rms_over_noise, 2.5);
   }
   EXPECT_LT(with->result.disagreement, 0.1);
   for (const std::string& warning : with->result.warnings) ADD_FAILURE() << warning;
@@ -109,7 +107,7 @@ TEST(EffectSensitivity, IsTheChangeOfTheWeightedResidualsAlongASmallAmplitude) {
   EXPECT_NEAR(cost_of(base->residuals), fit->result.main.cost, 1e-6 * fit->result.main.cost);
   for (const char* name : {"ring_friction", "pore_pressure", "structure"}) {
     const effects::Effect& effect = *effects::find_effect(name);
-    const double small = 1e-3 * effect.parameters[0].typical_si();
+    const double small = 2e-3 * effect.parameters[0].typical_si();
     const auto at = [&](double amplitude) {
       const auto on = *effects::Values<double>::create({effects::with_amplitude(effect, amplitude)});
       const std::vector<effects::ParameterRef> by{{&effect, 0}};
