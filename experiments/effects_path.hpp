@@ -152,7 +152,8 @@ class EffectsPath {
     return std::nullopt;
   }
 
-  [[nodiscard]] const EffectsModel<S>& model() const { return model_; }
+  /// The first substep to try of the next step (s); 0: any.
+  [[nodiscard]] double& substep() { return substep_; }
   [[nodiscard]] const EffectsState<S, K>& state() const { return y_; }
   [[nodiscard]] EffectsReading<S> at_start() const {
     return {S(protocol_.start.axial_stress), S(protocol_.start.axial_strain)};
@@ -255,11 +256,6 @@ class EffectsPath {
     return EffectsReading<S>{stress, measured_strain()};
   }
 
- public:
-  /// The first substep to try of the next step (s); 0: any.
-  double& substep() { return substep_; }
-
- private:
   const datasets::OedometerTest& test_;
   const OedometerProtocol& protocol_;
   const effects::Values<S>& values_;

@@ -6,85 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/instrument.hpp"
-#include "experiments/oedometer_protocol.hpp"
-#include "model/law_terms.hpp"
+#include "experiments/effects_model.hpp"
 
 namespace isotach::experiments::detail {
-
-/// The specimen and what effects make it remember, within one step of the history.
-template <class S, model::Fabric K>
-struct EffectsState {
-  model::State<S, model::kAxial, K> soil;
-  S structure;           ///< chi (-)
-  S held_strain;         ///< viscous strain (-) since a hold began
-  double elapsed = 0.0;  ///< s since the step began
-};
-
-template <class S, model::Fabric K>
-struct EffectsStateRate {
-  model::StateRate<S, model::kAxial, K> soil;
-  S structure;    ///< 1/s
-  S held_strain;  ///< 1/s
-};
-
-/// What changes from step to step only. Compression positive.
-template <class S>
-struct EffectsStep {
-  bool stress_controlled = false;
-  S rate = S(0.0);                ///< of the measured logarithmic strain (1/s), or of the true stress (Pa/s)
-  S stress = S(0.0);              ///< true stress as the step begins (Pa); where stress is controlled
-  double direction = 1.0;         ///< +1 loading, -1 unloading: the one last commanded
-  bool held = false;              ///< nothing is commanded to move
-  double temperature = 0.0;       ///< as the step begins (deg C)
-  double temperature_rate = 0.0;  ///< K/s
-  S compression = S(0.0);         ///< x as the step before ended (1/s, logarithmic)
-  S void_ratio_at_reversal = S(0.0);
-  S largest_load = S(0.0);  ///< G so far (Pa)
-};
-
-/// A specimen's geometry: engineering strain from the law's void ratio.
-template <class S>
-struct StrainOf {
-  S void_ratio_at_start;
-  double strain_at_start;
-
-  [[nodiscard]] S operator()(const S& void_ratio) const {
-    return 1.0 - (1.0 + void_ratio) / (1.0 + void_ratio_at_start) * (1.0 - strain_at_start);
-  }
-  /// d strain of a change of void ratio, without its sign.
-  [[nodiscard]] S size(const S& change_of_void_ratio) const {
-    return change_of_void_ratio * ((1.0 - strain_at_start) / (1.0 + void_ratio_at_start));
-  }
-};
-
-/// All that stays the same over a test.
-template <class S>
-struct EffectsModel {
-  const model::Law<S>& law;
-  model::LawTerms<S> terms;
-  S reference_temperature;  ///< deg C; where there is a term of temperature
-  Instrument<S> instrument;
-  StrainOf<S> strain_of;
-  S given_at_start = S(0.0);  ///< strain of what gives in series, under the load at the start
-
-  /// What the ring takes over the radial stress.
-  [[nodiscard]] S friction_ratio(const S& void_ratio, double direction) const {
-    return instrument.friction_ratio(strain_of(void_ratio), direction);
-  }
-  /// The load G (Pa) of a specimen.
-  template <model::Fabric K>
-  [[nodiscard]] S load(const model::State<S, model::kAxial, K>& soil, double direction) const {
-    return -soil.stress[0] -
-           friction_ratio(soil.void_ratio, direction) * soil.stress[1] * (1.0 / std::numbers::sqrt2);
-  }
-  /// The strain that is measured: the specimen's, and what gives in series since the start.
-  [[nodiscard]] S measured_strain(const S& void_ratio, const S& load, const S& largest) const {
-    const S strain = strain_of(void_ratio);
-    return instrument.gives() ? S(strain + (instrument.given_strain(load, largest) - given_at_start))
-                              : strain;
-  }
-};
 
 /// Right-hand side dy/dt = F(y) of confined compression with effects. With pore pressure under controlled
 /// stress the rate of strain x follows from what the pore water carries, u = c x, and relaxes within c/slope,
@@ -193,7 +117,7 @@ class EffectsRate {
     return history;
   }
 
-  /// |D_vis| at a strain rate of size |x|.
+  /// |D_vis| at a strain rate of size |x|, which counts only where I_v depends on it.
   [[nodiscard]] S viscous_at(const S& log_ratio, const S& D_r, const S& size) const {
     using std::exp;
     return exp(log_ratio / model_.terms.viscosity_index(model_.law, size)) * D_r;
@@ -248,17 +172,13 @@ class EffectsRate {
 
   /// The x with which the controlled quantity has its rate.
   bool solve(const Controlled& controlled, const S& log_ratio, const S& D_r) {
-    const S& C_1 = model_.law.parameters().C_1();
-    const auto linear = [&](const S& viscous) -> bool {
-      const S driving = controlled.rate - controlled.viscous_part * viscous;
-      const S slope = controlled.slope(C_1, model::value_of(driving) > 0.0);
-      if (!(model::value_of(slope) > 0.0)) return false;
-      compression_ = driving / slope;
-      return true;
-    };
-    viscous_ = viscous_at(log_ratio, D_r, size_of(compression_));
-    if (!model_.terms.rate_dependence) return linear(viscous_);
-    return solve_rate_dependent(controlled, log_ratio, D_r);
+    if (model_.terms.rate_dependence) return solve_rate_dependent(controlled, log_ratio, D_r);
+    viscous_ = viscous_at(log_ratio, D_r, S(0.0));
+    const S driving = controlled.rate - controlled.viscous_part * viscous_;
+    const S slope = controlled.slope(model_.law.parameters().C_1(), model::value_of(driving) > 0.0);
+    if (!(model::value_of(slope) > 0.0)) return false;
+    compression_ = driving / slope;
+    return true;
   }
 
   /// The same where |D_vis| depends on |x|: Newton's method on plain values, between what the least and the
@@ -318,7 +238,6 @@ class EffectsRate {
   /// Makes of the limit x_inf the mean x over tau. The slope depends on the sign of x, so that where x passes
   /// through zero on its way there are two stretches, u = c x being zero between them.
   void relax(const State& y, const Controlled& load, double tau) {
-    using std::exp;
     using std::log;
     const S c = model_.instrument.pore_pressure_per_rate(model_.strain_of(y.soil.void_ratio));
     const S carried = stress_at(y.elapsed) - model_.load(y.soil, step_.direction);

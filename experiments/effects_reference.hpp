@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/effects_rate.hpp"
+#include "experiments/oedometer_protocol.hpp"
 #include "integrators/result.hpp"
 
 namespace isotach::experiments::detail {

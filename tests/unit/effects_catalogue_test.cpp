@@ -2,7 +2,10 @@
 // The catalogue of effects: what every entry must have, and what a set of effects refuses.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <sstream>
 
 #include "effects/anisotropy.hpp"
 #include "effects/ring_friction.hpp"
@@ -70,6 +73,48 @@ TEST(EffectsCatalogue, NamesFindTheirEffectsAndParameters) {
   for (const char* name : {"ring_friction", "ring_friction.", "mu", "ring_friction.mu.mu", ".mu"}) {
     EXPECT_FALSE(find_parameter(name)) << name;
   }
+}
+
+std::string content_of(const std::string& file) {
+  std::ifstream stream(std::string(ISOTACH_SOURCE_DIR) + "/" + file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A text within a table of Markdown, where a bar would end its cell.
+std::string cell(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+/// An effect as a row of the table in docs/effects.md.
+std::string row_of(const Effect& effect) {
+  std::ostringstream row;
+  row << "| `" << effect.name << "` | " << effect.meaning << " | " << cell(effect.equation) << " | ";
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    const EffectParameter& parameter = effect.parameters[i];
+    row << (i == 0 ? "" : "; ") << "`" << parameter.name << "` " << parameter.meaning << ", "
+        << (parameter.lower_open ? "above " : "") << parameter.lower << " to " << parameter.upper;
+    if (parameter.otherwise == Default::typical) row << ", where absent " << parameter.typical;
+    if (parameter.otherwise == Default::material_D_r) row << ", where absent D_r of [material]";
+  }
+  row << " | " << name_of(effect.seam) << " | " << effect.height_exponent << " | " << effect.source << " |";
+  return row.str();
+}
+
+// A page that says something else than the program misleads.
+TEST(EffectsPage, HasTheRowOfEveryEffect) {
+  const std::string page = content_of("docs/effects.md");
+  for (const Effect* effect : catalogue()) {
+    EXPECT_NE(page.find("\n" + row_of(*effect) + "\n"), std::string::npos) << row_of(*effect);
+  }
+}
+
+TEST(EffectsPage, ShowsTheFileOfItsExampleAsItIs) {
+  std::istringstream lines(content_of("effects/sensor_drift.hpp"));
+  std::string shown;
+  for (std::string line; std::getline(lines, line);) shown += (line.empty() ? "" : "    " + line) + "\n";
+  EXPECT_NE(content_of("docs/effects.md").find(shown), std::string::npos);
 }
 
 TEST(EffectValues, RefuseWhatIsOutOfRangeOrThereTwice) {
