@@ -213,6 +213,25 @@ void add_oedometer_facts(Page& page, const OedometerFit& fit) {
   if (fit.assessment && !fit.assessment->integrators.empty()) page.fact("Integrators", integrator_text(fit));
 }
 
+Table effect_table(const calibration::OedometerFit& fit) {
+  using enum Alignment;
+  Table table{.caption = "Effects that the model has.",
+              .header = {"Effect", "Parameters", "Enters at", "Equation", "Meaning"},
+              .alignment = {left, left, left, left, left}};
+  for (const auto& one : fit.effects.chosen()) {
+    std::string parameters;
+    for (std::size_t i = 0; i < one.effect->parameters.size(); ++i) {
+      const auto& parameter = one.effect->parameters[i];
+      parameters += fmt::format("{}{} = {}", i == 0 ? "" : ", ", parameter.name,
+                                format_number(one.si[i] / parameter.to_si, 4));
+    }
+    table.rows.push_back({std::string(one.effect->name), std::move(parameters),
+                          std::string(effects::name_of(one.effect->seam)), std::string(one.effect->equation),
+                          std::string(one.effect->meaning)});
+  }
+  return table;
+}
+
 Table start_estimate_table(const calibration::FitResult& result) {
   using enum Alignment;
   Table table{.caption = "Effects and starts of tests that were fitted.",

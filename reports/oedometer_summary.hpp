@@ -26,7 +26,9 @@ void add_oedometer_verdicts(Page& page, const calibration::OedometerFit& fit);
 /// Data, gauge, noise, number of answers, agreement of routes and integrators.
 void add_oedometer_facts(Page& page, const calibration::OedometerFit& fit);
 
-/// Quantities of tests' starts that were fitted; without rows where none was.
+/// The effects that the model has, at the answer; without rows where it has none.
+[[nodiscard]] Table effect_table(const calibration::OedometerFit& fit);
+/// Parameters of effects and quantities of tests' starts that were fitted; without rows where none was.
 [[nodiscard]] Table start_estimate_table(const calibration::FitResult& result);
 
 }  // namespace isotach::reports

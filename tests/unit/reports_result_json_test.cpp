@@ -134,6 +134,24 @@ TEST(ResultJson, LocalQuantitiesStandAmongTheStarts) {
   EXPECT_EQ(json["starts"][0]["ci95"], (ordered_json{0.6, nullptr}));
 }
 
+TEST(ResultJson, EffectsStandAmongTheParametersInTheUnitOfTheirName) {
+  calibration::OedometerFit fit = assessed_fit();
+  const effects::ParameterRef sigma_s = *effects::find_parameter("seating.sigma_s_kPa");
+  fit.effects = *effects::Values<double>::create({effects::with_amplitude(*sigma_s.effect, 2e-4)});
+  fit.result.local_estimates = {{"seating.sigma_s_kPa", 15e3, 1e3, 13e3, 17e3,
+                                 calibration::Verdict::identified, "the data hold it", sigma_s}};
+  const ordered_json json = result_json(run_of("fit-oedometer"), assessed_study(), fit);
+  EXPECT_EQ(json["starts"], ordered_json::array());
+  const ordered_json& parameter = json["parameters"].at("seating.sigma_s_kPa");
+  EXPECT_EQ(parameter["value"], 15.0);
+  EXPECT_EQ(parameter["std_error"], 1.0);
+  EXPECT_EQ(parameter["ci95"], (ordered_json{13.0, 17.0}));
+  EXPECT_EQ(parameter["unit"], "kPa");
+  EXPECT_EQ(parameter["verdict"], "identified");
+  EXPECT_TRUE(json["parameters"].contains("lambda"));
+  EXPECT_EQ(json["effects"], (ordered_json{{"seating", {{"delta_m", 2e-4}, {"sigma_s_kPa", 10.0}}}}));
+}
+
 TEST(ResultJson, NamesRowsThatWereLeftOut) {
   calibration::OedometerFit fit = small_calibration().oedometer;
   datasets::OedometerTest test = fit.experiments[0]->test();
