@@ -146,6 +146,7 @@ class EffectsPath {
     y_ = {*start, S(1.0), S(0.0), 0.0};
     model_.strain_of.void_ratio_at_start = start->void_ratio;
     step_.direction = protocol_.steps.front().direction;
+    if (!protocol_.temperatures.empty()) step_.temperature = protocol_.temperatures.front();
     step_.void_ratio_at_reversal = start->void_ratio;
     step_.largest_load = model_.load(y_.soil, step_.direction);
     model_.given_at_start = model_.instrument.given_strain(step_.largest_load, step_.largest_load);
@@ -242,13 +243,16 @@ class EffectsPath {
   [[nodiscard]] std::optional<EffectsReading<S>> reading(EffectsRate<S, K>& rate, double time) {
     const S now = load();
     if (model_.instrument.holds_water()) {
+      constexpr double kLong = 1e30;  // s: the mean rate over it is the limit
+      EffectsStateRate<S, K> f;
+      if (!rate(y_, kLong, f)) return std::nullopt;
+      step_.compression = rate.compression();
+      const S c = model_.instrument.pore_pressure_per_rate(model_.strain_of(y_.soil.void_ratio));
       if (step_.stress_controlled) {
         carried_by_water_ = rate.stress_at(y_.elapsed) - now;
+        if (model::value_of(c) > 0.0) step_.compression = carried_by_water_ / c;
       } else {
-        EffectsStateRate<S, K> f;
-        if (!rate(y_, 0.0, f)) return std::nullopt;
-        carried_by_water_ = model_.instrument.pore_pressure_per_rate(model_.strain_of(y_.soil.void_ratio)) *
-                            rate.compression();
+        carried_by_water_ = c * step_.compression;
       }
     }
     const S stress = now + carried_by_water_ + model_.instrument.drift(time - protocol_.start.time);
