@@ -1,5 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // isotach discover: what it writes, that its answer is a study's, what it refuses.
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/consumer/consumer_test.hpp"
@@ -10,7 +11,7 @@ namespace {
 using nlohmann::json;
 
 std::string study_of(const char* mud) {
-  return std::string(ISOTACH_SOURCE_DIR) + "/datasets/" + mud + "/study.toml";
+  return std::filesystem::path(ISOTACH_SOURCE_DIR) / "datasets" / mud / "study.toml";
 }
 
 class DiscoverCommand : public ConsumerTest {

@@ -2,6 +2,7 @@
 // The catalogue of effects: what every entry must have, and what a set of effects refuses.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -76,7 +77,7 @@ TEST(EffectsCatalogue, NamesFindTheirEffectsAndParameters) {
 }
 
 std::string content_of(const std::string& file) {
-  std::ifstream stream(std::string(ISOTACH_SOURCE_DIR) + "/" + file);
+  std::ifstream stream(std::filesystem::path(ISOTACH_SOURCE_DIR) / file);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
