@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -60,13 +61,31 @@ experiments::Simulate counted(const SlumpFitOptions& options, const std::shared_
   };
 }
 
-SlumpExperiments make_experiments(const datasets::Study& study, const experiments::Simulate& simulate,
-                                  const SimulationError& error) {
+SlumpExperiments make_experiments(const datasets::Study& study, const effects::Values<double>& effects,
+                                  const experiments::Simulate& simulate, const SimulationError& error) {
+  std::vector<effects::ParameterRef> free;
+  for (const datasets::FreeEffect& one : study.fit.slump_effects) free.push_back(one.parameter);
   SlumpExperiments all;
   for (const auto& test : study.slump_tests) {
-    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, simulate, error.error));
+    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, simulate, error.error, effects, free));
   }
   return all;
+}
+
+/// The study's effects with those that were free as x has them.
+effects::Values<double> effects_at(const Problem& problem, const std::vector<double>& x,
+                                   effects::Values<double> effects) {
+  const auto& coordinates = problem.parametrisation().coordinates();
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    if (!coordinates[k].effect) continue;
+    const std::array parameters{*coordinates[k].effect};
+    const std::array values{coordinates[k].quantity(x[k])};
+    if (auto moved = effects.with(std::span<const effects::ParameterRef>(parameters),
+                                  std::span<const double>(values))) {
+      effects = std::move(*moved);
+    }
+  }
+  return effects;
 }
 
 double rms_where(const experiments::Values& values, const std::vector<bool>& chosen) {
@@ -93,11 +112,14 @@ double volume_excess(const datasets::SlumpTest& test) {
 }
 
 tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(
-    const SlumpExperiments& all, const model::Parameters<double>& parameters, int threads) {
+    const SlumpExperiments& all, const Problem& problem, const std::vector<double>& x,
+    const model::Parameters<double>& parameters, int threads) {
   std::vector<tl::expected<mpm::SlumpResult, experiments::PredictionFailure>> simulations(all.size());
   const std::vector<std::size_t> order = by_cost({all.begin(), all.end()});
-  parallel_for(all.size(), threads,
-               [&](std::size_t k) { simulations[order[k]] = all[order[k]]->simulate(parameters); });
+  parallel_for(all.size(), threads, [&](std::size_t k) {
+    const std::size_t i = order[k];
+    simulations[i] = all[i]->simulate(parameters, problem.parametrisation().local_of(*all[i], x));
+  });
   std::vector<SlumpComparison> comparisons;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!simulations[i]) {
@@ -128,7 +150,10 @@ Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
                      const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
                      int threads) {
   const Experiments in_order(all.begin(), all.end());
-  return Problem(in_order, Parametrisation(at, wanted, {study.fit.bounds, {}}, GaugeChoice{}), threads);
+  return Problem(
+      in_order,
+      Parametrisation(at, wanted, {study.fit.bounds, {}, study.fit.slump_effects}, GaugeChoice{}, in_order),
+      threads);
 }
 
 }  // namespace
@@ -196,7 +221,7 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
                                                    const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
   const experiments::Simulate simulate = counted(options, tally);
-  SlumpSearch found{start, {}, {}, {}, {}, {}};
+  SlumpSearch found{start, study.effects, {}, {}, {}, {}, {}};
   if (options.simulation_error) {
     found.simulation_error = *options.simulation_error;
   } else {
@@ -205,7 +230,7 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
     if (!measured) return tl::unexpected(measured.error());
     found.simulation_error = std::move(*measured);
   }
-  const SlumpExperiments all = make_experiments(study, simulate, found.simulation_error);
+  const SlumpExperiments all = make_experiments(study, study.effects, simulate, found.simulation_error);
   const Problem problem = make_problem(all, study, start, wanted, options.threads);
   const Parametrisation& parametrisation = problem.parametrisation();
   for (const datasets::SlumpRoute route : options.routes) {
@@ -225,6 +250,7 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
     return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
   }
   found.parameters = *parametrisation.at(search.coordinates);
+  found.effects = effects_at(problem, search.coordinates, study.effects);
   found.search = std::move(search);
   found.runs = tally->counts();
   if (!found.search.converged) {
@@ -278,19 +304,31 @@ std::vector<double> add_numerics(const Problem& problem, const std::vector<doubl
   return widening;
 }
 
+/// Interval and verdict as a profile has them. `range` is that which judge() wants.
+template <class Estimate>
+void heed_profile_of(const Coordinate& coordinate, const Profile& profile, double range, bool at_bound,
+                     Estimate& estimate) {
+  estimate.ci95_lower = coordinate.quantity(profile.lower);
+  estimate.ci95_upper = coordinate.quantity(profile.upper);
+  if (estimate.verdict != Verdict::undetermined) {
+    estimate.verdict = judge(0.5 * (estimate.ci95_upper - estimate.ci95_lower), range, at_bound);
+  }
+  heed_profile(profile, estimate);
+}
+
 /// Intervals and verdicts as the profiles have them.
 void heed_profiles(const Problem& problem, const SlumpMap& map, FitResult& result) {
   for (const Profile& profile : map.profiles) {
-    const Coordinate& coordinate = problem.parametrisation().coordinates()[profile.coordinate];
-    ParameterEstimate& estimate = result.estimates[static_cast<std::size_t>(*coordinate.id)];
-    estimate.ci95_lower = coordinate.quantity(profile.lower);
-    estimate.ci95_upper = coordinate.quantity(profile.upper);
-    if (estimate.verdict != Verdict::undetermined) {
-      estimate.verdict =
-          judge(0.5 * (estimate.ci95_upper - estimate.ci95_lower), range_of(estimate.id, *result.parameters),
-                problem.parametrisation().at_bound(map.best, profile.coordinate));
+    const std::size_t k = profile.coordinate;
+    const Coordinate& coordinate = problem.parametrisation().coordinates()[k];
+    const bool at_bound = problem.parametrisation().at_bound(map.best, k);
+    if (coordinate.id) {
+      heed_profile_of(coordinate, profile, range_of(*coordinate.id, *result.parameters), at_bound,
+                      result.estimates[static_cast<std::size_t>(*coordinate.id)]);
+    } else {
+      LocalEstimate& estimate = result.local_estimates[k - result.free.size()];
+      heed_profile_of(coordinate, profile, std::abs(estimate.value), at_bound, estimate);
     }
-    heed_profile(profile, estimate);
   }
 }
 
@@ -300,7 +338,8 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
                                                 const std::vector<model::ParameterId>& wanted,
                                                 const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
-  const SlumpExperiments all = make_experiments(study, counted(options, tally), found.simulation_error);
+  const SlumpExperiments all =
+      make_experiments(study, found.effects, counted(options, tally), found.simulation_error);
   const Problem problem = make_problem(all, study, found.parameters, wanted, options.threads);
   std::vector<double> answer = problem.parametrisation().start();
   SlumpFit fit;
@@ -345,10 +384,12 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   }
   result.correlation = correlation_of(result.uncertainty.covariance);
   result.estimates = estimate_parameters(problem, answer, result.uncertainty);
+  result.local_estimates = estimate_locals(problem, answer, result.uncertainty);
   if (fit.map) heed_profiles(problem, *fit.map, result);
 
   tell(options, SlumpFitStage::comparison);
-  auto comparisons = compare_all(all, *result.parameters, options.threads);
+  fit.effects = effects_at(problem, answer, found.effects);
+  auto comparisons = compare_all(all, problem, answer, *result.parameters, options.threads);
   if (!comparisons) return tl::unexpected(comparisons.error());
   fit.comparisons = std::move(*comparisons);
   fit.rms_mould_gone = rms_mould_gone(fit.comparisons);

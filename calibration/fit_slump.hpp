@@ -22,6 +22,7 @@ struct SlumpComparison {
 
 struct SlumpFit {
   FitResult result;
+  effects::Values<double> effects;           ///< those of the study, at the answer
   std::vector<SlumpComparison> comparisons;  ///< all tests of the study
   double rms_mould_gone = 0.0;               ///< m, over all tests, held-out ones included
   mpm::RunCounts runs;                       ///< simulations by how they ended, those of the search included
@@ -60,6 +61,7 @@ struct SlumpFitOptions {
 /// What a search found, before its uncertainty and the comparison with all tests are worked out.
 struct SlumpSearch {
   model::Parameters<double> parameters;
+  effects::Values<double> effects;      ///< of the study, free ones at the answer
   OptimiserResult search;               ///< the route that ended best
   std::vector<OptimiserResult> others;  ///< the other routes that were asked for
   mpm::RunCounts runs;                  ///< simulations by how they ended

@@ -78,8 +78,8 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
   Experiments slumps;
   for (const auto& test : study.slump_tests) {
     if (test.hold_out) continue;
-    slumps.push_back(
-        std::make_shared<experiments::SlumpExperiment>(test, simulate, slump.simulation_error.error));
+    slumps.push_back(std::make_shared<experiments::SlumpExperiment>(
+        test, simulate, slump.simulation_error.error, slump.effects));
   }
   const CoordinateSettings settings{study.fit.bounds, study.fit.priors, study.fit.oedometer_effects};
   const Problem simulated(slumps,

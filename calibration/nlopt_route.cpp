@@ -189,8 +189,10 @@ OptimiserResult minimise_with_nlopt(const Problem& problem, const std::vector<do
     optimiser.set_upper_bounds(upper);
     std::vector<double> steps;
     for (std::size_t k = 0; k < start.size(); ++k) {
-      const bool logarithmic = problem.parametrisation().coordinates()[k].logarithmic;
-      const double step = logarithmic ? options.first_step : options.first_step_C_1;
+      const Coordinate& coordinate = problem.parametrisation().coordinates()[k];
+      const double step = coordinate.logarithmic ? options.first_step
+                          : coordinate.effect    ? options.first_step_effect
+                                                 : options.first_step_C_1;
       // BOBYQA wants room for its first step on one side at least
       steps.push_back(std::min(shrink * step, 0.45 * (upper[k] - lower[k])));
     }

@@ -70,6 +70,7 @@ struct NloptOptions {
   LocalSearch search = LocalSearch::bobyqa;
   double first_step = 0.1;  ///< of logarithmic coordinates
   double first_step_C_1 = 0.05;
+  double first_step_effect = 0.3;      ///< of an effect, in its typical values
   double coordinate_tolerance = 1e-6;  ///< absolute, of each coordinate
   double cost_tolerance = 0.0;         ///< relative
   int max_evaluations = 2000;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "calibration/parallel.hpp"
+#include "datasets/slump_effects.hpp"
 #include "experiments/outline_distance.hpp"
 
 namespace isotach::calibration {
@@ -132,8 +133,9 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
   parallel_for(runs.size(), threads, [&](std::size_t i) {
     const datasets::SlumpTest& test = *tests[i % tests.size()];
     const std::size_t variant = i / tests.size();
-    runs[i] = simulate(test.name, parameters,
-                       variant < kVariants ? changed(test.setup, kChanges[variant]) : test.setup);
+    const mpm::SlumpSetup setup = datasets::with_effects(test.setup, study.effects);
+    runs[i] =
+        simulate(test.name, parameters, variant < kVariants ? changed(setup, kChanges[variant]) : setup);
   });
   SimulationError result;
   Differences differences;

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "calibration/parallel.hpp"
+#include "datasets/slump_effects.hpp"
 
 namespace isotach::calibration {
 
@@ -109,7 +110,7 @@ tl::expected<SimulatedSetups, FitFailure> simulate_around(
     moved[k] += side.step;
     const auto parameters = parametrisation.at(moved);
     if (!parameters) return;  // not admissible: one-sided
-    auto run = recorded(runs.name, *parameters, runs.setup);
+    auto run = recorded(runs.name, *parameters, datasets::with_effects(runs.setup, study.effects));
     if (run) side.run = std::move(*run);
   });
   if (interrupted) return tl::unexpected(FitFailure{"interrupted", true});

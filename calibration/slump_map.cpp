@@ -28,7 +28,7 @@ CoordinateBox first_box(const Problem& problem, const std::vector<double>& answe
   for (std::size_t k = 0; k < answer.size(); ++k) {
     const Coordinate& coordinate = problem.parametrisation().coordinates()[k];
     const auto i = static_cast<Eigen::Index>(k);
-    const double range = coordinate.upper - coordinate.lower;
+    const double range = coordinate.search_width(answer[k]);
     const double least = coordinate.logarithmic ? kLeastBoxHalfWidth : kLeastBoxHalfWidth * range;
     const double error =
         uncertainty.in_null_direction(k) ? HUGE_VAL : std::sqrt(uncertainty.covariance(i, i));

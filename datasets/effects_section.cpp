@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "datasets/slump_effects.hpp"
 #include "effects/anisotropy.hpp"
 
 namespace isotach::datasets {
@@ -78,6 +80,24 @@ void check_effects(const effects::Values<double>& effects, const OedometerTest& 
         std::none_of(test.record.rows.begin(), test.record.rows.end(), read)) {
       fail(effect, "column temperature_C of its data", "a temperature in at least one row");
     }
+  }
+}
+
+void check_effects(const effects::Values<double>& effects, const std::string& name,
+                   const mpm::SlumpSetup& setup, const FilePlace& place) {
+  for (const auto& one : effects.chosen()) {
+    if (one.effect->test != effects::TestKind::slump) continue;
+    if (const auto reason = why_not(setup, *one.effect)) {
+      throw InputError(place, fmt::format("slump test {}: effect {}", name, one.effect->name),
+                       "the test cannot have it: " + *reason, "an [effects] table without it");
+    }
+  }
+  const double gradient = with_effects(setup, effects).effects.void_ratio_gradient;
+  if (setup.mud.void_ratio && !(*setup.mud.void_ratio > 0.5 * std::abs(gradient))) {
+    throw InputError(place, fmt::format("slump test {}: effect water_layering", name),
+                     fmt::format("g = {} leaves no voids somewhere at a mean void ratio of {}", gradient,
+                                 *setup.mud.void_ratio),
+                     "below twice the void ratio");
   }
 }
 

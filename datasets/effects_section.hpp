@@ -7,6 +7,7 @@
 #include "datasets/toml_table.hpp"
 #include "effects/values.hpp"
 #include "model/parameters.hpp"
+#include "mpm/slump_setup.hpp"
 
 namespace isotach::datasets {
 
@@ -19,7 +20,11 @@ namespace isotach::datasets {
 /// InputError where an effect needs what a test does not have. `place` is that of the test's table.
 void check_effects(const effects::Values<double>& effects, const OedometerTest& test, const FilePlace& place);
 
-/// InputError where the file has an [effects] table with anything in it: none of them can be simulated.
+/// The same of a slump test's setup.
+void check_effects(const effects::Values<double>& effects, const std::string& name,
+                   const mpm::SlumpSetup& setup, const FilePlace& place);
+
+/// InputError where an element test's file has an [effects] table with anything in it: none act there.
 void refuse_effects(TomlTable& root);
 
 }  // namespace isotach::datasets

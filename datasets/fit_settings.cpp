@@ -27,6 +27,14 @@ struct Wanted {
   std::vector<FreeEffect> effects;
 };
 
+/// Those effects that tests of that kind can have.
+effects::Values<double> of_kind(effects::Values<double> effects, effects::TestKind kind) {
+  for (const effects::Effect* effect : effects::catalogue()) {
+    if (effect->test != kind) effects = effects.without(*effect);
+  }
+  return effects;
+}
+
 /// The parameters of effects that are on and that a fit can move, for messages.
 std::string effect_names(const effects::Values<double>& effects) {
   std::string names;
@@ -45,7 +53,9 @@ effects::ParameterRef read_effect_name(const TomlTable& fit, std::string_view ke
   const auto parameter = effects::find_parameter(name);
   if (!parameter) throw fit.error(key, fmt::format("\"{}\" is not a parameter", name), accepted);
   if (!effects.has(*parameter->effect)) {
-    throw fit.error(key, fmt::format("\"{}\" is of an effect that [effects] does not have", name), accepted);
+    throw fit.error(
+        key, fmt::format("\"{}\" is of an effect that [effects] does not have, or not for these tests", name),
+        accepted);
   }
   if (!parameter->info().searched()) {
     throw fit.error(key, fmt::format("\"{}\" is a convention, which no fit can move", name), accepted);
@@ -135,10 +145,12 @@ void read_effect_bounds(TomlTable& table, const effects::Values<double>& effects
       const std::string name = parameter.name();
       const auto bounds =
           read_bounds(table, name, info.unit, {info.lower, info.upper, info.lower_open, false}, info.to_si);
-      for (FreeEffect& free : settings.oedometer_effects) {
-        if (!bounds || free.parameter != parameter) continue;
-        require_start_inside(table, name, *bounds, effects[parameter], info.to_si, name + " of [effects]");
-        free.bounds = bounds;
+      for (auto* list : {&settings.oedometer_effects, &settings.slump_effects}) {
+        for (FreeEffect& free : *list) {
+          if (!bounds || free.parameter != parameter) continue;
+          require_start_inside(table, name, *bounds, effects[parameter], info.to_si, name + " of [effects]");
+          free.bounds = bounds;
+        }
       }
     }
   }
@@ -188,10 +200,13 @@ FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material,
   FitSettings settings;
   auto fit = root.table_if("fit");
   if (!fit) return settings;
-  Wanted oedometer = read_names(*fit, "oedometer", settings.oedometer, effects);
+  Wanted oedometer =
+      read_names(*fit, "oedometer", settings.oedometer, of_kind(effects, effects::TestKind::oedometer));
   settings.oedometer = std::move(oedometer.material);
   settings.oedometer_effects = std::move(oedometer.effects);
-  settings.slump = read_names(*fit, "slump", settings.slump, {}).material;
+  Wanted slump = read_names(*fit, "slump", settings.slump, of_kind(effects, effects::TestKind::slump));
+  settings.slump = std::move(slump.material);
+  settings.slump_effects = std::move(slump.effects);
   settings.slump_routes = read_routes(*fit, settings.slump_routes);
   constexpr std::array<std::string_view, 3> kGauges{"crs-rate", "fixed", "none"};
   constexpr std::array<Gauge, 3> kGaugeValues{Gauge::crs_rate, Gauge::fixed, Gauge::none};

@@ -8,7 +8,8 @@
 namespace isotach::datasets {
 
 /// Reads [fit] of `root`; the defaults of FitSettings where it is absent. `material` is where the fit starts.
-/// `effects` are those that are on, whose parameters ("ring_friction.mu") oedometer may list too.
+/// `effects` are those that are on, whose parameters ("ring_friction.mu") oedometer and slump may list too,
+/// each those of its tests.
 /// InputError: an unknown parameter, one listed twice, one of an effect that is off, an unknown gauge, bounds
 /// that are not [lower, upper] within the admissible range, a fitted parameter that starts outside of its
 /// bounds, a prior that is not { mean, std_error } or is on a parameter that fit-oedometer does not move,

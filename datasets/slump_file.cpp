@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "datasets/effects_section.hpp"
+#include "datasets/slump_effects.hpp"
 #include "datasets/study_sections.hpp"
 #include "datasets/toml_table.hpp"
 
@@ -33,10 +34,10 @@ std::vector<double> read_times(TomlTable output) {
 SlumpFile read_slump_file(const std::filesystem::path& file, const ReadOptions& options) {
   const TomlDocument document = TomlDocument::read(file, options);
   TomlTable root = document.root();
-  for (const std::string_view section : {"material", "mud", "mould", "base", "numerics", "output"}) {
+  for (const std::string_view section :
+       {"material", "effects", "mud", "mould", "base", "numerics", "output"}) {
     static_cast<void>(root.has(section));
   }
-  refuse_effects(root);
   root.reject_unknown_keys();
 
   std::vector<std::string> texts;
@@ -50,7 +51,10 @@ SlumpFile read_slump_file(const std::filesystem::path& file, const ReadOptions& 
   check_cell_size(root, setup);
   check_slab(root, material, setup);
   setup.times = read_times(root.table("output"));
-  return {file, std::move(material), std::move(setup), std::move(texts)};
+  auto effects = read_effects(root, material);
+  check_effects(effects, "of the file", setup, root.place());
+  setup = with_effects(std::move(setup), effects);
+  return {file, std::move(material), std::move(setup), std::move(effects), std::move(texts)};
 }
 
 }  // namespace isotach::datasets

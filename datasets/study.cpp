@@ -96,7 +96,9 @@ Study parse_study(std::string text, const std::filesystem::path& file, const Rea
     check_effects(study.effects, study.oedometer_tests.back(), place);
   }
   for (TomlTable& test : root.tables("slump")) {
+    const FilePlace place = test.place();
     study.slump_tests.push_back(read_slump_test(std::move(test), root, study, names, read_data));
+    check_effects(study.effects, study.slump_tests.back().name, study.slump_tests.back().setup, place);
   }
   if (names.empty()) {
     throw InputError({file}, "study", "it has no test", "at least one [[oedometer]] or [[slump]]");

@@ -61,6 +61,7 @@ struct FitSettings {
   std::vector<model::ParameterId> oedometer{model::ParameterId::e100, model::ParameterId::lambda,
                                             model::ParameterId::kappa, model::ParameterId::D_r};
   std::vector<FreeEffect> oedometer_effects;  ///< of effects that are on
+  std::vector<FreeEffect> slump_effects;      ///< likewise
   std::vector<model::ParameterId> slump{model::ParameterId::I_v, model::ParameterId::C_1};
   std::vector<SlumpRoute> slump_routes{SlumpRoute::bobyqa};  ///< of fit-slump, each once, at least one
   Gauge gauge = Gauge::crs_rate;

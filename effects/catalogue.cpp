@@ -5,8 +5,12 @@
 
 #include "effects/anisotropy.hpp"
 #include "effects/apparatus_compliance.hpp"
+#include "effects/basal_slip.hpp"
+#include "effects/bleeding.hpp"
 #include "effects/delayed_creep.hpp"
 #include "effects/gas.hpp"
+#include "effects/high_rate_viscosity.hpp"
+#include "effects/lift_delay.hpp"
 #include "effects/pore_pressure.hpp"
 #include "effects/rate_dependent_viscosity.hpp"
 #include "effects/ring_friction.hpp"
@@ -14,7 +18,12 @@
 #include "effects/sensor_drift.hpp"
 #include "effects/small_strain_stiffness.hpp"
 #include "effects/structure.hpp"
+#include "effects/surface_tension.hpp"
 #include "effects/temperature.hpp"
+#include "effects/thixotropy.hpp"
+#include "effects/wall_adhesion.hpp"
+#include "effects/water_layering.hpp"
+#include "effects/yield_stress.hpp"
 
 namespace isotach::effects {
 
@@ -35,6 +44,15 @@ constexpr std::array kCatalogue{
     &delayed_creep::kEffect,
     &sensor_drift::kEffect,
     // of slump tests
+    &wall_adhesion::kEffect,
+    &basal_slip::kEffect,
+    &lift_delay::kEffect,
+    &bleeding::kEffect,
+    &thixotropy::kEffect,
+    &high_rate_viscosity::kEffect,
+    &water_layering::kEffect,
+    &surface_tension::kEffect,
+    &yield_stress::kEffect,
 };
 
 static_assert([] {

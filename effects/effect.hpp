@@ -61,7 +61,8 @@ struct Effect {
   std::string_view source;    ///< of the equation
   Seam seam;
   TestKind test;
-  /// n, where what it does to the readings grows as H^n with the specimen's height H, all else equal.
+  /// n, where what it does to the readings grows as H^n with the height H of specimen or fill, all else
+  /// equal; in slumps against what the weight does.
   int height_exponent;
   std::span<const EffectParameter> parameters;  ///< at most kMostParameters
   Need need = Need::nothing;

@@ -17,7 +17,20 @@ double difference_step(model::ParameterId id, double value) {
   return model::may_be_zero(id) ? std::max(kLeast, kRelativeStep * value) : kRelativeStep * value;
 }
 
+double difference_step(const LocalQuantity& quantity, double value) {
+  constexpr double kLeast = 0.2;  // of an effect's typical value
+  const double step = kRelativeStep * std::abs(value);
+  if (!quantity.effect || quantity.logarithmic) return step;
+  return std::max(kLeast * quantity.effect->info().typical_si(), step);
+}
+
 }  // namespace
+
+LocalQuantity local_quantity(const effects::ParameterRef& parameter, double value) {
+  const effects::EffectParameter& info = parameter.info();
+  return {parameter.name(), value,        info.lower_si(), info.upper_si(),
+          info.lower > 0.0, std::nullopt, parameter};
+}
 
 std::vector<Channel> Experiment::channels() const {
   Channel channel;
@@ -44,13 +57,15 @@ tl::expected<Linearisation, PredictionFailure> Experiment::linearise(
   Linearisation result{std::move(*centre), {}};
   const auto rows = static_cast<Eigen::Index>(result.values.size());
   result.jacobian = Eigen::MatrixXd::Zero(rows, directions.cols());
+  const std::vector<LocalQuantity> quantities = locals();
   for (std::size_t k = 0; k < model::kParameterCount + local.size(); ++k) {
     const auto input = static_cast<Eigen::Index>(k);
     if (directions.row(input).isZero(0.0)) continue;
     const bool material = k < model::kParameterCount;
     const auto id = static_cast<model::ParameterId>(k);
     const double step =
-        material ? difference_step(id, parameters[id]) : kRelativeStep * local[k - model::kParameterCount];
+        material ? difference_step(id, parameters[id])
+                 : difference_step(quantities[k - model::kParameterCount], local[k - model::kParameterCount]);
     // one-sided where the other side is not admissible or fails
     Values ends[2] = {result.values, result.values};
     double width = 0.0;

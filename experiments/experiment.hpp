@@ -37,6 +37,9 @@ struct LocalQuantity {
   std::optional<effects::ParameterRef> effect{};  ///< shared by all tests that have one of that name
 };
 
+/// That of an effect's parameter (SI), bounded as the catalogue has it.
+[[nodiscard]] LocalQuantity local_quantity(const effects::ParameterRef& parameter, double value);
+
 /// Predicted values and their derivatives along directions of the inputs.
 struct Linearisation {
   Values values;

@@ -205,9 +205,7 @@ std::vector<LocalQuantity> OedometerExperiment::locals() const {
     result.push_back({"OCR", *test_.initial_ocr, 0.05, 100.0, true, test_.free_ocr.std_error});
   }
   for (const effects::ParameterRef& parameter : free_) {
-    const effects::EffectParameter& info = parameter.info();
-    result.push_back({parameter.name(), effects_[parameter], info.lower_si(), info.upper_si(),
-                      info.lower > 0.0, std::nullopt, parameter});
+    result.push_back(local_quantity(parameter, effects_[parameter]));
   }
   return result;
 }

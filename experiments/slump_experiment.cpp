@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/slump_effects.hpp"
 #include "experiments/outline_distance.hpp"
 
 namespace isotach::experiments {
@@ -25,8 +26,12 @@ OutlineErrors errors_of(const datasets::SlumpNoise& noise, const SharedError& si
 }
 
 SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, Simulate simulate,
-                                 const SharedError& simulation_error)
-    : test_(std::move(test)), simulate_(std::move(simulate)) {
+                                 const SharedError& simulation_error, effects::Values<double> effects,
+                                 std::vector<effects::ParameterRef> free)
+    : test_(std::move(test)),
+      simulate_(std::move(simulate)),
+      effects_(std::move(effects)),
+      free_(std::move(free)) {
   for (std::size_t k = 0; k < test_.outlines.size(); ++k) {
     const datasets::Outline& outline = test_.outlines[k];
     double top = 0.0;
@@ -46,13 +51,23 @@ SlumpExperiment::SlumpExperiment(datasets::SlumpTest test, Simulate simulate,
   ones_.assign(stations_.size(), 1.0);
 }
 
+std::vector<LocalQuantity> SlumpExperiment::locals() const {
+  std::vector<LocalQuantity> quantities;
+  for (const effects::ParameterRef& parameter : free_) {
+    quantities.push_back(local_quantity(parameter, effects_[parameter]));
+  }
+  return quantities;
+}
+
 double SlumpExperiment::cost() const {
   return test_.setup.mould.fill_height * test_.setup.mould.diameter * test_.setup.times.back();
 }
 
 tl::expected<mpm::SlumpResult, PredictionFailure> SlumpExperiment::simulate(
-    const model::Parameters<double>& parameters) const {
-  auto result = simulate_(test_.name, parameters, test_.setup);
+    const model::Parameters<double>& parameters, std::span<const double> local) const {
+  const auto effects = effects_.with(std::span<const effects::ParameterRef>(free_), local);
+  if (!effects) return tl::unexpected(PredictionFailure{effects.error().message()});
+  auto result = simulate_(test_.name, parameters, datasets::with_effects(test_.setup, *effects));
   if (!result) {
     return tl::unexpected(PredictionFailure{test_.name + ": " + result.error().message,
                                             result.error().status == mpm::RunStatus::interrupted});
@@ -86,8 +101,8 @@ Values SlumpExperiment::decorrelated(const Values& distances) const {
 }
 
 tl::expected<Values, PredictionFailure> SlumpExperiment::predict(const model::Parameters<double>& parameters,
-                                                                 std::span<const double> /*local*/) const {
-  const auto result = simulate(parameters);
+                                                                 std::span<const double> local) const {
+  const auto result = simulate(parameters, local);
   if (!result) return tl::unexpected(result.error());
   return decorrelated(distances(*result));
 }

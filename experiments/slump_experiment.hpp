@@ -4,7 +4,9 @@
 
 #include <Eigen/Cholesky>
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "datasets/study.hpp"
 #include "experiments/experiment.hpp"
@@ -25,7 +27,10 @@ using Simulate = std::function<tl::expected<mpm::SlumpResult, mpm::RunFailure>(
 class SlumpExperiment final : public Experiment {
  public:
   /// `simulate` may be empty where nothing is predicted; `simulation_error` is that of the simulations.
-  SlumpExperiment(datasets::SlumpTest test, Simulate simulate, const SharedError& simulation_error = {});
+  /// Those of `effects` that are of slump tests act; `free` parameters of them are local quantities, which
+  /// all tests share.
+  SlumpExperiment(datasets::SlumpTest test, Simulate simulate, const SharedError& simulation_error = {},
+                  effects::Values<double> effects = {}, std::vector<effects::ParameterRef> free = {});
 
   [[nodiscard]] const std::string& name() const override { return test_.name; }
   [[nodiscard]] bool held_out() const override { return test_.hold_out; }
@@ -34,6 +39,7 @@ class SlumpExperiment final : public Experiment {
     return "distance between outlines, decorrelated (-)";
   }
   [[nodiscard]] const Values& noise() const override { return ones_; }
+  [[nodiscard]] std::vector<LocalQuantity> locals() const override;
   /// By fill and duration.
   [[nodiscard]] double cost() const override;
   [[nodiscard]] tl::expected<Values, PredictionFailure> predict(const model::Parameters<double>& parameters,
@@ -42,7 +48,7 @@ class SlumpExperiment final : public Experiment {
   [[nodiscard]] const datasets::SlumpTest& test() const { return test_; }
   /// The simulation behind predict().
   [[nodiscard]] tl::expected<mpm::SlumpResult, PredictionFailure> simulate(
-      const model::Parameters<double>& parameters) const;
+      const model::Parameters<double>& parameters, std::span<const double> local) const;
   /// Signed distance (m) of each measured point from a simulation's outlines.
   [[nodiscard]] Values distances(const mpm::SlumpResult& result) const;
   /// Distances in units of the noise of their points, as the study states it.
@@ -58,6 +64,8 @@ class SlumpExperiment final : public Experiment {
  private:
   datasets::SlumpTest test_;
   Simulate simulate_;
+  effects::Values<double> effects_;
+  std::vector<effects::ParameterRef> free_;
   std::vector<double> point_noise_;
   std::vector<bool> mould_gone_;
   std::vector<std::size_t> outline_index_;

@@ -40,10 +40,12 @@ Body& Engine::add(Body body) {
   if (q.count == 0) throw std::invalid_argument("a body needs points");
   if (q.count > std::numeric_limits<std::uint32_t>::max()) throw std::invalid_argument("too many points");
   const std::size_t padded = Particles::padded(q.count, kBlock);
-  const bool rotates = !q.omega[0].empty();
+  std::vector<const std::vector<double>*> absent;
+  q.for_each_optional([&](std::vector<double>& array) {
+    if (array.empty()) absent.push_back(&array);
+  });
   q.for_each_array([&](std::vector<double>& array) {
-    const bool omega = &array >= q.omega.data() && &array < q.omega.data() + q.omega.size();
-    if (omega && !rotates) return;
+    if (std::find(absent.begin(), absent.end(), &array) != absent.end()) return;
     array.resize(q.count, 0.0);
     array.resize(padded, array.back());
   });
@@ -190,7 +192,7 @@ void Engine::push(double dt) {
   const double scale = std::sqrt(inertia_ / next_inertia_);
   inertia_ = next_inertia_;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Body& body = bodies_[b];
+    Body& body = bodies_[b];
     PushSettings settings;
     settings.time = time_;
     settings.dt = dt;
@@ -200,6 +202,7 @@ void Engine::push(double dt) {
     settings.mean = body.averaged ? fields_[b].corners.mean.data() : nullptr;
     settings.material = body.material.get();
     settings.forces = &body.forces;
+    for (const auto& force : body.forces) force->prepare(body.particles);
     with_symmetry(settings_.symmetry, [&]<Symmetry S>() {
       team_->run([&](int k) {
         const auto [begin, end] = share(body.particles, k);
@@ -250,6 +253,26 @@ void Engine::advance_row(std::size_t j, double dt, double& internal_work, double
   }
 }
 
+namespace {
+
+/// Force on the base's point, half on the node below and half on that above, that makes the point's velocity
+/// `cells` times what the nodes' velocities, otherwise `below` and `above`, differ by; `ease` is what a force
+/// adds to a node's. A base resists and no more: the force is never beyond the one that holds the point, and
+/// none where the point is slower than it might be.
+double slipping(double below, double above, double ease_below, double ease_above, double cells) {
+  const double velocity = 0.5 * (below + above);
+  const double holding = -velocity / (0.25 * (ease_below + ease_above));
+  // by how much the point is too fast, free and held, in the direction in which it moves
+  const double sense = velocity < 0.0 ? -1.0 : 1.0;
+  const double too_fast = sense * (velocity - cells * (above - below));
+  if (too_fast <= 0.0) return 0.0;
+  const double held = -sense * cells * (above - below + 0.5 * holding * (ease_above - ease_below));
+  if (held >= 0.0) return holding;
+  return holding * too_fast / (too_fast - held);
+}
+
+}  // namespace
+
 // A base that yields to shear. Along it the nodes above and below (their images) move by themselves, and the
 // base's shear force acts on the point between them, half on each; across it nothing moves. A force that
 // holds the base's point leaves the nodes above what folding leaves them: the base without slip. The sums
@@ -258,7 +281,10 @@ void Engine::slide(double dt) {
   const double h = grid_.cell_size();
   const Octet* nodes = grid_.sums().data();
   slip_.assign(grid_.stride(), {});
-  for (std::size_t i = 0; i < grid_.sums().end(0); ++i) {
+  // the nodes beyond left and right are images
+  const std::size_t first = grid_.sides().left == Side::open ? 0 : 1;
+  const std::size_t last = grid_.columns() + (grid_.sides().right == Side::open ? 2 : 1);
+  for (std::size_t i = first; i < std::min(last, grid_.sums().end(0)); ++i) {
     const Octet& below = nodes[grid_.index(i, 0)];
     const Octet& above = nodes[grid_.index(i, 1)];
     if (below[kMass] <= kLeastNodeMass) continue;  // nothing touches the base here
@@ -274,14 +300,9 @@ void Engine::slide(double dt) {
     double shear = 0.0;
     if (base_.slip_length > 0.0) {
       const double cells = base_.slip_length / h;
-      const double ease_of_condition = ease - cells * 0.5 * (ease_above - ease_below);
-      // the force that makes the base's velocity `cells` times what the nodes differ by.
-      const auto holding = [&](double of_below, double of_above) {
-        return (cells * (of_above - of_below) - 0.5 * (of_below + of_above)) / ease_of_condition;
-      };
-      shear = holding(free_below, free_above);
+      shear = slipping(free_below, free_above, ease_below, ease_above, cells);
       // as folding does, the condition is imposed on the velocities before the step too
-      const double before = holding(slip.before_below, slip.before_above);
+      const double before = slipping(slip.before_below, slip.before_above, ease_below, ease_above, cells);
       shear -= before;
       slip.before_below += 0.5 * before * ease_below;
       slip.before_above += 0.5 * before * ease_above;
@@ -311,6 +332,12 @@ void Engine::slide(double dt) {
                      0.5 * shear * (path_below + path_above);
     kinetic_ += 0.5 * (below[kMass] * slip.below * slip.below + above[kMass] * slip.above * slip.above);
   }
+  const auto mirror = [this](std::size_t image, std::size_t original) {
+    const Slip& of = slip_[original];
+    slip_[image] = {of.touches, -of.before_below, -of.before_above, -of.below, -of.above};
+  };
+  if (grid_.sides().left != Side::open) mirror(0, 1);
+  if (grid_.sides().right != Side::open) mirror(grid_.columns() + 1, grid_.columns());
 }
 
 void Engine::fold(double dt) {

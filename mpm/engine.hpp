@@ -22,7 +22,7 @@ struct Body {
   double viscosity = 0.0;  ///< eta of a stress 2 eta D* beside the material's (Pa s), >= 0
   bool averaged = true;    ///< tr D and mean stress are averaged over cells
   bool flows = false;      ///< comes down on the base from above, and so must close the gap (base_gap.hpp)
-  std::vector<std::unique_ptr<const PointForce>> forces;  ///< that act on these points, and on no others
+  std::vector<std::unique_ptr<PointForce>> forces;  ///< that act on these points, and on no others
 };
 
 struct EngineSettings {
@@ -68,7 +68,7 @@ class Engine {
   Body& add(Body body);
   /// Adds a force on the points of one body, given by its place in bodies(); of those of the others it knows
   /// nothing.
-  void add(std::unique_ptr<const PointForce> force, std::size_t body = 0) {
+  void add(std::unique_ptr<PointForce> force, std::size_t body = 0) {
     bodies_.at(body).forces.push_back(std::move(force));
   }
   void set_base(const BaseFriction& base) { base_ = base; }

@@ -10,8 +10,6 @@ namespace isotach::mpm {
 
 namespace {
 
-constexpr double kWaterDensity = 1000.0;  // kg/m3
-
 /// C_u / p_B at the undrained critical state
 double strength_ratio(const model::Law<double>& law, double rate) {
   const auto& parameters = law.parameters();

@@ -20,6 +20,8 @@ struct MaterialChunk {
   double dt = 0.0;                                                    ///< s
   alignas(64) std::array<std::array<double, kChunk>, 4> strain_rate;  ///< plane Mandel (1/s)
   alignas(64) std::array<double, kChunk> spin;                        ///< W_rz (1/s)
+  /// Where the strength is not the void ratio's alone: ln of the factor on p_B at each point; else null.
+  const double* log_strength = nullptr;
   alignas(
       64) std::array<double, kChunk> total_pressure;  ///< out: mean total stress (Pa), compression positive
 };

@@ -34,13 +34,18 @@ struct Particles {
   std::array<std::vector<double>, 4> stress;  ///< effective stress (Pa)
   std::array<std::vector<double>, 4>
       omega;  ///< anisotropy tensor (-), plane Mandel; empty where it stays zero
+  std::array<std::vector<double>, 4> resistance;  ///< stress beside the law's (Pa), as stress; empty where
+                                                  ///< there is none
+  std::array<std::vector<double>, 4> capillary;   ///< the same of surface tension
+  std::vector<double>
+      structure;  ///< xi (-), 1 after long rest; empty where strength is the void ratio's alone
 
   /// Number of entries of each array for a body of n points.
   [[nodiscard]] static std::size_t padded(std::size_t n, std::size_t lanes) {
     return (n + lanes - 1) / lanes * lanes;
   }
 
-  /// Calls f(array) for every array; those of omega may be empty.
+  /// Calls f(array) for every array; those of omega and below may be empty.
   template <class F>
   void for_each_array(F&& f) {
     for (auto* a :
@@ -49,7 +54,15 @@ struct Particles {
       f(*a);
     }
     for (auto& a : stress) f(a);
-    for (auto& a : omega) f(a);
+    for_each_optional(f);
+  }
+  /// Calls f(array) for those that may be empty.
+  template <class F>
+  void for_each_optional(F&& f) {
+    for (auto* tensor : {&omega, &resistance, &capillary}) {
+      for (auto& a : *tensor) f(a);
+    }
+    f(structure);
   }
 
   /// Makes the padding that shares a pack of `lanes` with points repeat the last one. Left to itself it would

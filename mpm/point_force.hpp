@@ -63,6 +63,9 @@ class PointForce {
   PointForce(const PointForce&) = delete;
   PointForce& operator=(const PointForce&) = delete;
   virtual ~PointForce() = default;
+  /// Called once a step before the blocks, with all points of the body; may set what they carry beside their
+  /// material.
+  virtual void prepare(Particles& /*particles*/) {}
   virtual void add(const ForceBlock& block) const = 0;
 };
 

@@ -9,16 +9,15 @@
 namespace isotach::mpm {
 
 std::vector<double> resting_pressures(const std::vector<double>& heights, double cell_size,
-                                      double unit_weight, double surface) {
+                                      const std::function<double(double)>& overburden) {
   const auto rows = static_cast<Eigen::Index>(heights.size());
   const auto corners = static_cast<Eigen::Index>(heights.back() / cell_size) + 2;
-  const auto hydrostatic = [&](double z) { return unit_weight * (surface - z); };
   Eigen::VectorXd pressures(rows);
   Eigen::VectorXd volumes = Eigen::VectorXd::Zero(corners);
   std::vector<Eigen::Triplet<double>> weights;  // of a row at a corner
   for (Eigen::Index row = 0; row < rows; ++row) {
     const double z = heights[static_cast<std::size_t>(row)];
-    pressures[row] = hydrostatic(z);
+    pressures[row] = overburden(z);
     const auto cell = static_cast<Eigen::Index>(z / cell_size);
     const double y = z / cell_size - static_cast<double>(cell);
     weights.emplace_back(cell, row, 1.0 - y);
@@ -31,7 +30,7 @@ std::vector<double> resting_pressures(const std::vector<double>& heights, double
   average = volumes.cwiseInverse().asDiagonal() * average;
   Eigen::VectorXd missing(corners);
   for (Eigen::Index corner = 0; corner < corners; ++corner) {
-    missing[corner] = hydrostatic(static_cast<double>(corner) * cell_size);
+    missing[corner] = overburden(static_cast<double>(corner) * cell_size);
   }
   missing -= average * pressures;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> least(average * average.transpose());

@@ -16,7 +16,7 @@ namespace isotach::mpm {
 template <class Setup, class Visitor>
 requires std::is_same_v<std::remove_const_t<Setup>, SlumpSetup>
 void visit_fields(Setup& setup, Visitor&& visit) {
-  auto& [mould, mud, base, numerics, times] = setup;
+  auto& [mould, mud, base, numerics, times, effects] = setup;
   {
     auto& [diameter, fill_height, lift_speed, wall, lift_delay, lift_table] = mould;
     auto& [adhesion, friction] = wall;
@@ -72,6 +72,20 @@ void visit_fields(Setup& setup, Visitor&& visit) {
     if constexpr (!std::is_const_v<Setup>) scheme = plain ? Scheme::plain : Scheme::conserving;
   }
   visit("times_s", times);
+  {
+    auto& [thixotropy, resistance, draining_rate, gradient, surface_tension] = effects;
+    auto& [gain, recovery_time, breakdown] = thixotropy;
+    auto& [yield_stress, consistency, flow_index] = resistance;
+    visit("thixotropy_gain", gain);
+    visit("thixotropy_recovery_time_s", recovery_time);
+    visit("thixotropy_breakdown", breakdown);
+    visit("yield_stress_Pa", yield_stress);
+    visit("consistency_Pa_s_n", consistency);
+    visit("flow_index", flow_index);
+    visit("draining_rate_per_s", draining_rate);
+    visit("void_ratio_gradient", gradient);
+    visit("surface_tension_N_per_m", surface_tension);
+  }
 }
 
 }  // namespace isotach::mpm

@@ -104,6 +104,14 @@ class Keeper {
 tl::expected<SlumpResult, SlumpFailure> run_slump(const model::Parameters<double>& parameters,
                                                   const SlumpSetup& setup, const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
+  const double void_ratio = initial_state(parameters, setup.mud).void_ratio;
+  if (!(void_ratio > 0.5 * std::abs(setup.effects.void_ratio_gradient))) {
+    return tl::unexpected(SlumpFailure{
+        SlumpFailure::Kind::bad_setup, 0.0, 0.0, 0.0,
+        fmt::format(
+            "void ratio {:.4g} with a difference of {:.4g} over the height: no voids are left somewhere",
+            void_ratio, setup.effects.void_ratio_gradient)});
+  }
   SlumpRun run(parameters, setup);
   SlumpResult result;
   result.initial = run.initial();

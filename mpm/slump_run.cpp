@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "mpm/gravity.hpp"
+#include "mpm/layering.hpp"
+#include "mpm/materials/mud_with_effects.hpp"
 #include "mpm/mould_contact.hpp"
 #include "mpm/resting_pressure.hpp"
 #include "mpm/slab_engine.hpp"
+#include "mpm/surface_tension.hpp"
 
 namespace isotach::mpm {
 
@@ -56,6 +59,11 @@ EngineSettings settings_of(const SlumpSetup& setup, double density) {
   return settings;
 }
 
+Layering layering_of(const SlumpSetup& setup, const InitialState& initial) {
+  return {initial.void_ratio, setup.effects.void_ratio_gradient, setup.mould.fill_height,
+          setup.mud.specific_gravity};
+}
+
 /// Points of the filled mould, at rest, undrained.
 Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const VhpMaterial& mud,
                      double cell_size, double width, double height) {
@@ -66,24 +74,36 @@ Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const
   q.count = columns * rows;
   std::vector<double> heights(rows);
   for (std::size_t row = 0; row < rows; ++row) heights[row] = (static_cast<double>(row) + 0.5) * height;
+  const Layering layering = layering_of(setup, initial);
   const std::vector<double> total =
-      resting_pressures(heights, cell_size, initial.density * kGravity, setup.mould.fill_height);
+      resting_pressures(heights, cell_size, [&](double z) { return layering.overburden(z); });
   for (std::size_t row = 0; row < rows; ++row) {
+    const double void_ratio = layering.void_ratio(heights[row]);
+    const double density = layering.density(heights[row]);
+    const double pressure = (1.0 + setup.effects.thixotropy.gain) *
+                            mud.law().preconsolidation_pressure(void_ratio) /
+                            setup.mud.overconsolidation_ratio;
     for (std::size_t column = 0; column < columns; ++column) {
       const double r = (static_cast<double>(column) + 0.5) * width;
       const double volume = r * width * height;  // exact: r is linear
       q.r.push_back(r);
       q.z.push_back(heights[row]);
-      q.mass.push_back(initial.density * volume);
-      q.solid_volume.push_back(volume / (1.0 + initial.void_ratio));
-      q.reference_pressure.push_back(
-          mud.reference_pressure(total[row] - initial.mean_effective_pressure, initial.void_ratio));
+      q.mass.push_back(density * volume);
+      q.solid_volume.push_back(volume / (1.0 + void_ratio));
+      q.reference_pressure.push_back(mud.reference_pressure(total[row] - pressure, void_ratio));
+      q.void_ratio.push_back(void_ratio);
+      for (std::size_t k = 0; k < 3; ++k) q.stress[k].push_back(-pressure);
     }
   }
-  q.void_ratio.assign(q.count, initial.void_ratio);
-  for (std::size_t k = 0; k < 3; ++k) q.stress[k].assign(q.count, -initial.mean_effective_pressure);
   if (mud.law().parameters().rotates()) {
     for (auto& component : q.omega) component.assign(q.count, 0.0);
+  }
+  if (setup.effects.thixotropy.acts()) q.structure.assign(q.count, 1.0);
+  if (setup.effects.resistance.acts()) {
+    for (auto& component : q.resistance) component.assign(q.count, 0.0);
+  }
+  if (setup.effects.surface_tension > 0.0) {
+    for (auto& component : q.capillary) component.assign(q.count, 0.0);
   }
   return q;
 }
@@ -97,23 +117,35 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
   const double h = engine_.grid().cell_size();
   const double width = h / std::sqrt(setup.numerics.points_per_cell);
   const double height = setup.mould.fill_height / std::round(setup.mould.fill_height / width);
-  auto mud = std::make_unique<VhpMaterial>(
-      parameters,
-      VhpMaterial::Settings{setup.numerics.tolerance, kLeastPressureShare * initial_.mean_effective_pressure,
-                            setup.numerics.water_bulk_modulus});
-  mud_ = mud.get();
+  const VhpMaterial::Settings settings{setup.numerics.tolerance,
+                                       kLeastPressureShare * initial_.mean_effective_pressure,
+                                       setup.numerics.water_bulk_modulus};
+  std::unique_ptr<const Material> material;
+  if (setup.effects.change_stress()) {
+    auto mud = std::make_unique<MudWithEffects>(parameters, settings, setup.effects, initial_.void_ratio);
+    mud_ = &mud->vhp();
+    material = std::move(mud);
+  } else {
+    auto mud = std::make_unique<VhpMaterial>(parameters, settings);
+    mud_ = mud.get();
+    material = std::move(mud);
+  }
   const double bulk = setup.numerics.water_bulk_modulus * (1.0 + initial_.void_ratio) / initial_.void_ratio;
   const double impedance = std::sqrt(initial_.density * bulk);
   Body body;
-  body.particles = fill_mould(setup, initial_, *mud, h, width, height);
-  body.material = std::move(mud);
-  body.density = initial_.density;
+  body.particles = fill_mould(setup, initial_, *mud_, h, width, height);
+  body.material = std::move(material);
+  const Layering layering = layering_of(setup, initial_);
+  body.density = std::min(layering.density(0.0), layering.density(setup.mould.fill_height));
   body.viscosity = setup.numerics.background_viscosity;
   body.flows = true;
   engine_.add(std::move(body));
   const MouldContact::Constants wall{width, kWallStiffness * bulk / h, kWallDamping * impedance,
                                      initial_.density * kGravity};
   engine_.add(std::make_unique<MouldContact>(setup.mould, wall));
+  if (setup.effects.surface_tension > 0.0) {
+    engine_.add(std::make_unique<SurfaceTension>(setup.effects.surface_tension, engine_.grid()));
+  }
   engine_.set_base(setup.base.friction);
   if (setup.base.slab) {
     const SlabLoad fill{fill_pressure(parameters, setup), 0.5 * setup.mould.diameter};
@@ -195,8 +227,9 @@ PointFields SlumpRun::point_fields(std::size_t i) const {
   const Particles& q = particles();
   const double hoop = q.grid_velocity_r[i] / q.r[i];
   const double shear = 0.5 * (q.l_rz[i] + q.l_zr[i]);
+  const double gain = q.structure.empty() ? 1.0 : 1.0 + setup_.effects.thixotropy.gain * q.structure[i];
   return {std::sqrt(q.l_rr[i] * q.l_rr[i] + q.l_zz[i] * q.l_zz[i] + hoop * hoop + 2.0 * shear * shear),
-          mud_->law().overconsolidation_ratio(q.state(i)),
+          mud_->law().overconsolidation_ratio(q.state(i)) * gain,
           // the averaged pressure is the one that acts
           engine_.total_pressure(0, i) - q.mean_effective_pressure(i)};
 }

@@ -10,6 +10,7 @@
 
 #include "mpm/base_friction.hpp"
 #include "mpm/elastic_slab.hpp"
+#include "mpm/mud_effects.hpp"
 
 namespace isotach::mpm {
 
@@ -93,6 +94,7 @@ struct SlumpSetup {
   Base base;
   Numerics numerics;
   std::vector<double> times;  ///< output times (s), increasing, > 0; the run ends at the last
+  MudEffects effects = {};    ///< of the mud; those of mould and base are theirs
 };
 
 }  // namespace isotach::mpm

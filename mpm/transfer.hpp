@@ -45,7 +45,7 @@ struct PushSettings {
   double velocity_scale = 1.0;   ///< of the points' velocities and their gradients
   const double* mean = nullptr;  ///< averaged pressure at corners; none where the body is not averaged
   const Material* material = nullptr;
-  const std::vector<std::unique_ptr<const PointForce>>* forces = nullptr;
+  const std::vector<std::unique_ptr<PointForce>>* forces = nullptr;
 };
 
 /// Points `begin` .. `end` - 1 (begin a multiple of kBlock) give mass, momentum with its affine part, and

@@ -47,6 +47,19 @@ void total_stress(const Particles& q, std::size_t begin, std::size_t count, cons
   }
 }
 
+/// Adds a stress of the points beside their materials', plane Mandel.
+void add_stress(const std::array<std::vector<double>, 4>& added, std::size_t begin, std::size_t count,
+                BlockStress& stress) {
+  for (std::size_t p = 0; p < count; p += kOctet) {
+    const std::size_t i = begin + p;
+    store_octet(stress.rr + p, load_octet(stress.rr + p) + load_octet(&added[0][i]));
+    store_octet(stress.zz + p, load_octet(stress.zz + p) + load_octet(&added[1][i]));
+    store_octet(stress.tt + p, load_octet(stress.tt + p) + load_octet(&added[2][i]));
+    store_octet(stress.rz + p,
+                load_octet(stress.rz + p) + load_octet(&added[3][i]) * (1.0 / std::numbers::sqrt2));
+  }
+}
+
 /// What a point gives to a node: linear in the node's place, in cells.
 struct PointGift {
   Octet corner;  ///< at the first of the nine nodes
@@ -111,6 +124,9 @@ void push_to_nodes(const Particles& q, std::size_t begin, std::size_t end, const
       }
     }
     total_stress<S>(q, start, packed, settings, cells, x, y, stride, stress);
+    for (const auto* added : {&q.resistance, &q.capillary}) {
+      if (!(*added)[0].empty()) add_stress(*added, start, packed, stress);
+    }
     loads.clear();
     for (const auto& force : *settings.forces) {
       force->add({q, start, count, settings.time, settings.dt, stress.rr, loads});

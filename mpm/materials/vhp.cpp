@@ -29,6 +29,7 @@ struct Pack {
   model::State<Lanes, kPlane, K> state;
   model::Mandel<Lanes, kPlane> strain_rate;
   Eigen::Matrix<Lanes, 3, 1> spin;
+  Lanes log_strength;
 };
 
 /// Points of a chunk side by side, from entry p on.
@@ -45,6 +46,7 @@ Pack<K> load(const Particles& particles, const MaterialChunk& chunk, std::size_t
   pack.state.void_ratio = Lanes::load(&particles.void_ratio[start]);
   pack.spin[0] = Lanes::load(&chunk.spin[p]);
   pack.spin[1] = pack.spin[2] = Lanes(0.0);
+  pack.log_strength = chunk.log_strength != nullptr ? Lanes::load(chunk.log_strength + p) : Lanes(0.0);
   return pack;
 }
 
@@ -70,6 +72,7 @@ Pack<K> gather(const Particles& particles, const MaterialChunk& chunk, const std
   pack.state.void_ratio = gather(&particles.void_ratio[chunk.begin], entries);
   pack.spin[0] = gather(chunk.spin.data(), entries);
   pack.spin[1] = pack.spin[2] = Lanes(0.0);
+  pack.log_strength = chunk.log_strength != nullptr ? gather(chunk.log_strength, entries) : Lanes(0.0);
   return pack;
 }
 
@@ -181,7 +184,7 @@ class PackSteps {
     const Lanes log_change_half = log_of_one_plus(x) * minus_inverse_lambda;
     Lanes log_change(0.0);
     if (substeps > 1) log_change = log_of_one_plus(2.0 * x * (1.0 + x)) * minus_inverse_lambda;
-    Lanes log_p_B = law_.log_preconsolidation_pressure(y.void_ratio);
+    Lanes log_p_B = law_.log_preconsolidation_pressure(y.void_ratio) + pack.log_strength;
 
     const Lanes void_ratio_error = x * inverse(1.0 + x);  // its square: (w - v)/(1 + w)
     const Lanes square = void_ratio_error * void_ratio_error;
@@ -382,6 +385,7 @@ bool VhpMaterial::substep(Particles& particles, const MaterialChunk& chunk, std:
   for (int k = 0; k < kPlane; ++k) strain_rate[k] = chunk.strain_rate[static_cast<std::size_t>(k)][p];
   const double norm = model::norm_of<double, kPlane>(strain_rate);
   const Eigen::Vector3d spin(chunk.spin[p], 0.0, 0.0);
+  const double log_strength = chunk.log_strength != nullptr ? chunk.log_strength[p] : 0.0;
 
   integrators::Tolerance tolerance;
   tolerance.relative = settings_.tolerance;
@@ -394,7 +398,7 @@ bool VhpMaterial::substep(Particles& particles, const MaterialChunk& chunk, std:
   const auto inside = [&](const State& y) { return pressure(y) >= least_pressure && law_.in_domain(y); };
   const auto rate = [&](const State& y, model::StateRate<double, kPlane, K>& f) {
     if (!inside(y)) return false;
-    f = law_.rate(y, strain_rate, norm);
+    f = law_.rate(y, strain_rate, norm, law_.log_preconsolidation_pressure(y.void_ratio) + log_strength);
     model::add_corotation(f, y, spin);
     return std::isfinite(f.stress.sum());
   };

@@ -165,9 +165,12 @@ TEST(JournalKey, IsTheUuidOfItsText) {
       R"("base_adhesion_Pa":"inf","base_friction":0.0,"base_slip_length_m":0.0,)"
       R"("base_elastic":false,"cell_size_m":0.013,"points_per_cell":4,)"
       R"("water_bulk_modulus_Pa":300000.0,"courant":0.8,"tolerance":0.003,)"
-      R"("background_viscosity_Pa_s":0.2,"inertia_scaling":100.0,"plain_scheme":false,"times_s":[0.1,0.2]})");
-  EXPECT_EQ(inputs.key, "7c4fe820-d5aa-569f-902a-10328f2be5ca");
-  EXPECT_EQ(inputs.setup_key, "94b36350-3478-59be-83b1-fb4c7ffcc704");
+      R"("background_viscosity_Pa_s":0.2,"inertia_scaling":100.0,"plain_scheme":false,"times_s":[0.1,0.2],)"
+      R"("thixotropy_gain":0.0,"thixotropy_recovery_time_s":1.0,"thixotropy_breakdown":1.0,)"
+      R"("yield_stress_Pa":0.0,"consistency_Pa_s_n":0.0,"flow_index":0.5,"draining_rate_per_s":0.0,)"
+      R"("void_ratio_gradient":0.0,"surface_tension_N_per_m":0.0})");
+  EXPECT_EQ(inputs.key, "3a11b1ec-7e15-5b4c-9e17-7be2ecf4d9ae");
+  EXPECT_EQ(inputs.setup_key, "8e028810-de2a-5084-bac5-5915bca7db4a");
 }
 
 class JournalRefuses : public JournalTest {

@@ -100,7 +100,7 @@ TEST(ViscoplasticMaterial, WithoutYieldStressItIsAMaxwellFluid) {
 TEST(ViscoplasticMaterial, FlowRateSolvesItsEquation) {
   for (const double n : {0.2, 0.7, 1.0, 2.0}) {
     for (const double k : {0.0, 1e-3, 10.0, 1e4}) {
-      const ViscoplasticMaterial material({kBulk, kShear, 20.0, k, n});
+      const FlowElement material{kShear, 20.0, k, n};
       for (const double excess : {1e-6, 1.0, 1e4}) {
         const double rate = material.flow_rate(20.0 + excess, 1e-4);
         const double got = kShear * 1e-4 * rate + k * std::pow(rate, n);

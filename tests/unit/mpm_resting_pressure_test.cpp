@@ -34,7 +34,8 @@ double average_at(double z, const std::vector<double>& heights, const std::vecto
 }
 
 void expect_hydrostatic_averages(const std::vector<double>& heights, double surface) {
-  const auto pressures = resting_pressures(heights, kCell, kUnitWeight, surface);
+  const auto pressures =
+      resting_pressures(heights, kCell, [&](double z) { return kUnitWeight * (surface - z); });
   ASSERT_EQ(pressures.size(), heights.size());
   for (int corner = 0; corner * kCell < heights.back() + kCell; ++corner) {
     const double z = corner * kCell;
@@ -56,7 +57,8 @@ TEST(RestingPressures, AveragesAreHydrostaticAtEveryCorner) {
 TEST(RestingPressures, OnlyRowsNearSurfaceAndBaseDifferFromHydrostatic) {
   const auto heights = even_rows(40, 0.5 * kCell);
   const double surface = 20.0 * kCell;
-  const auto pressures = resting_pressures(heights, kCell, kUnitWeight, surface);
+  const auto pressures =
+      resting_pressures(heights, kCell, [&](double z) { return kUnitWeight * (surface - z); });
   const auto change = [&](std::size_t i) {
     return (pressures[i] - kUnitWeight * (surface - heights[i])) / kScale;
   };
@@ -69,7 +71,8 @@ TEST(RestingPressures, OnlyRowsNearSurfaceAndBaseDifferFromHydrostatic) {
 }
 
 TEST(RestingPressures, OneRowACellIsRefused) {
-  EXPECT_THROW(resting_pressures(even_rows(10, kCell), kCell, kUnitWeight, 10.0 * kCell),
+  EXPECT_THROW(resting_pressures(even_rows(10, kCell), kCell,
+                                 [](double z) { return kUnitWeight * (10.0 * kCell - z); }),
                std::invalid_argument);
 }
 

@@ -156,7 +156,7 @@ void expect_push(bool averaged) {
   const Grid g = grid();
   const std::vector<double> mean = random_field(g, 12);
   const Echo material;
-  std::vector<std::unique_ptr<const PointForce>> forces;
+  std::vector<std::unique_ptr<PointForce>> forces;
   forces.push_back(std::make_unique<Pull>());
   PushSettings settings;
   settings.dt = kStep;
