@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "discovery/left_out.hpp"
 #include "discovery/limits.hpp"
 
 namespace isotach::discovery {
@@ -220,24 +221,15 @@ class Search {
                        [](const Trial& trial) { return trial.adequate; });
   }
 
-  /// Misfit of each fitted test, in turn, as the others predict it: by the base and with `added`.
-  tl::expected<std::pair<double, double>, FitFailure> left_out(const Effects& added) const {
-    std::pair<double, double> sums{0.0, 0.0};
-    for (std::size_t t = 0; t < study_.oedometer_tests.size(); ++t) {
-      if (study_.oedometer_tests[t].hold_out) continue;
-      datasets::Study others = study_;
-      others.oedometer_tests[t].hold_out = true;
-      for (const bool with : {false, true}) {
-        calibration::OedometerFitOptions near = fit_options_;
-        near.start_from_data = false;
-        const auto fit =
-            fit_with(others, *found_.base.candidate.fit.result.parameters, with ? added : Effects{}, near);
-        if (!fit) return tl::unexpected(fit.error());
-        const double rms = fit->fit.result.tests[t].rms_over_noise;
-        (with ? sums.second : sums.first) += rms * rms;
-      }
-    }
-    return sums;
+  /// By how much the log predictive density of tests left out is higher with the trial's effects than by the
+  /// base, by the trial's noise.
+  tl::expected<double, FitFailure> predicts_better(const Trial& trial) const {
+    const auto& weights = trial.candidate.fit.noise.weights;
+    const auto with = log_predictive_density(study_, trial.candidate, weights, options_.threads);
+    if (!with) return with;
+    const auto base = log_predictive_density(study_, found_.base.candidate, weights, options_.threads);
+    if (!base) return base;
+    return *with - *base;
   }
 
   std::optional<FitFailure> decide() {
@@ -255,8 +247,8 @@ class Search {
       return holds;
     };
     bool good = require(best.adequate, fmt::format("with {} the model meets every test and stage, and no "
-                                                   "further effect is called for (p = {:.3g})",
-                                                   name_of(best.candidate), best.adequacy.p_value));
+                                                   "further effect is called for ({})",
+                                                   name_of(best.candidate), p_words(best.adequacy.p_value)));
     good &= require(!best.candidate.at_bound, "its amplitude lies within its bounds and is not zero");
     if (!good) {
       found_.verdict = Verdict::unknown;
@@ -270,10 +262,13 @@ class Search {
     for (const auto& test : study_.oedometer_tests) fitted += test.hold_out ? 0U : 1U;
     if (fitted > 1) {
       tell(0.9, "each test as the others predict it");
-      const auto sums = left_out(best.candidate.added);
-      if (!sums && sums.error().interrupted) return sums.error();
-      const bool better = sums && sums->second < sums->first;
-      if (!require(better, "tests left out of the fit are predicted better with it") && leads) {
+      if (auto interrupted = stopped()) return interrupted;
+      const auto gain = predicts_better(best);
+      const std::string words = "tests left out of the fit are predicted no worse with it";
+      const bool better = gain ? require(*gain >= kPredictsNoWorse,
+                                         fmt::format("{} (log predictive density {:+.1f})", words, *gain))
+                               : require(false, words + ": " + gain.error().message);
+      if (!better && leads) {
         found_.verdict = Verdict::unknown;
         return std::nullopt;
       }

@@ -32,9 +32,9 @@ struct Disagreement {
 
 /// Whether a model meets the data.
 struct Adequacy {
-  bool meets_noise = false;     ///< every test and stage within its stated noise
-  double p_value = 0.0;         ///< that noise makes any effect look so useful on top of it
-  const effects::Effect* most;  ///< the effect that looks so; null where there is none
+  bool meets_noise = false;               ///< every test and stage within its stated noise
+  double p_value = 0.0;                   ///< that noise makes any effect look so useful on top of it
+  const effects::Effect* most = nullptr;  ///< the effect that looks so; null where there is none
 };
 
 /// A set of effects that was tried.

@@ -18,6 +18,12 @@ inline constexpr double kLeavesNothing = 0.01;
 /// Difference of BIC by which a name must be better than any other: 6 is "strong" by Kass & Raftery (1995),
 /// odds of 20 to 1.
 inline constexpr double kMargin = 6.0;
+/// A name is refused where tests left out of the fit are predicted worse with it than by the base: by the sum
+/// over tests of the log predictive density, which weighs the uncertainty that the other tests leave in the
+/// parameters (left_out.hpp). The base has been rejected by the data as a whole, so the burden is on the
+/// refusal: with two tests, one of which alone does not hold the base's parameters, both predict vaguely, and
+/// that says nothing against the name. An effect that one test calls for and another refutes is far below.
+inline constexpr double kPredictsNoWorse = 0.0;
 /// Effects that are refitted, the best by score first: a score is taken at zero of the amplitude and may
 /// misjudge a strong effect's rank, hardly by so many places.
 inline constexpr std::size_t kRefitted = 6;

@@ -1,6 +1,8 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "discovery/score_test.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
@@ -83,6 +85,12 @@ const Signature* best_signature(const ScoreTest& test, const effects::Effect& ef
 double ScoreTest::p_value(double largest) const {
   const auto above = null_largest.end() - std::lower_bound(null_largest.begin(), null_largest.end(), largest);
   return (static_cast<double>(above) + 1.0) / (static_cast<double>(null_largest.size()) + 1.0);
+}
+
+std::string p_words(double p) {
+  constexpr double kLeast = 1.0 / (kReplicates + 1.0);
+  constexpr double kRoundOff = 1e-9;
+  return p > kLeast * (1.0 + kRoundOff) ? fmt::format("p = {:.2g}", p) : fmt::format("p < {:.1g}", kLeast);
 }
 
 tl::expected<ScoreTest, calibration::FitFailure> score(

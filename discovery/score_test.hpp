@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "discovery/candidate.hpp"
@@ -23,7 +24,8 @@ struct ScoreTest {
   /// The largest of z^2 of the signatures of one effect, in the order of `effects`.
   std::vector<const effects::Effect*> effects;
   std::vector<double> best;
-  /// Probability that noise makes the largest of all as large, by parametric bootstrap.
+  /// Probability that noise makes the largest of all as large, by parametric bootstrap; at least
+  /// 1/(kReplicates + 1), which stands for "less than that".
   [[nodiscard]] double p_value(double largest) const;
   std::vector<double> null_largest;  ///< sorted, of the bootstrap
 };
@@ -32,6 +34,10 @@ struct ScoreTest {
 [[nodiscard]] tl::expected<ScoreTest, calibration::FitFailure> score(
     const datasets::Study& study, const Candidate& model, const std::vector<const effects::Effect*>& effects,
     const std::vector<calibration::ExperimentWeights>& weights, int threads);
+
+/// A probability of that bootstrap as text: "p = 0.03", or "p < 0.0002" where no replicate came as far and
+/// the number is only what so many of them can tell.
+[[nodiscard]] std::string p_words(double p);
 
 /// |cosine| of the best signatures of two effects.
 [[nodiscard]] double likeness(const ScoreTest& test, const effects::Effect& a, const effects::Effect& b);

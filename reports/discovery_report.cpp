@@ -64,8 +64,8 @@ void add_verdict(Page& page, const Discovery& found) {
     case Verdict::adequate:
       page.verdict(Tone::good,
                    fmt::format("The model suffices: every test and stage is met to within its noise, and no "
-                               "effect of the catalogue improves the fit more than noise would (p = {}).",
-                               number(found.p_value)));
+                               "effect of the catalogue improves the fit more than noise would ({}).",
+                               discovery::p_words(found.p_value)));
       return;
     case Verdict::named: {
       const Trial& best = found.trials[*found.chosen];
@@ -247,8 +247,7 @@ Page discovery_report(const RunInfo& run, const datasets::Study& study, const Di
   }
   add_data_note(page, study);
   page.fact("Verdict", std::string(name_of(found.verdict)));
-  page.fact("Noise alone would let some effect improve the fit as much",
-            fmt::format("p = {}", number(found.p_value)));
+  page.fact("Noise alone would let some effect improve the fit as much", discovery::p_words(found.p_value));
   page.table(disagreement_table(found, kStagesOnFirstPage));
   const auto worst =
       std::find_if(found.base.candidate.fit.experiments.begin(), found.base.candidate.fit.experiments.end(),
@@ -276,9 +275,10 @@ Page discovery_report(const RunInfo& run, const datasets::Study& study, const Di
       "would let some effect improve the fit as much in less than {} of cases (parametric bootstrap of the "
       "largest, "
       "{} replicates). A name needs: a model that then meets every test and stage and calls for nothing more "
-      "(p >= {}), a BIC lower than any other's by {}, an amplitude within its bounds, and better predictions "
-      "of "
-      "tests left out of the fit. Tests held out take no part in any of it.",
+      "(p >= {}), a BIC lower than any other's by {}, an amplitude within its bounds, and predictions of "
+      "tests "
+      "left out of the fit that are no worse than the base's (log predictive density, which weighs how well "
+      "the other tests hold the parameters). Tests held out take no part in any of it.",
       discovery::kRejects, discovery::kReplicates, discovery::kLeavesNothing, discovery::kMargin));
   return page;
 }

@@ -3,10 +3,13 @@
 // fitter are the same code here; how often names are right is another question.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <random>
 
 #include "discovery/discover.hpp"
+#include "discovery/left_out.hpp"
 
 namespace isotach::discovery {
 namespace {
@@ -88,6 +91,60 @@ TEST(Discovery, ScoresAreThoseOfLeastSquares) {
     EXPECT_NEAR(signature.unit.norm(), 1.0, 1e-9);
     EXPECT_GT(signature.absorbed, 0.5) << "one ring, one direction at a time: most is taken up";
   }
+}
+
+/// ln of the normal density of whitened residuals r with derivatives J by coordinates of covariance C, but
+/// for the constant: by the whole covariance of r.
+double log_normal(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
+  const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(r.size(), r.size()) + J * C * J.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const Eigen::MatrixXd factor = root.matrixL();
+  return -0.5 * root.matrixL().solve(r).squaredNorm() - factor.diagonal().array().log().sum();
+}
+
+TEST(LeftOut, IsTheDensityOfAPredictionWithItsUncertainty) {
+  // e100, lambda, kappa alone: each test of mud-a holds them, and the model is nearly linear over their
+  // errors
+  datasets::Study study = hidden({});
+  study.fit.oedometer = {model::ParameterId::e100, model::ParameterId::lambda, model::ParameterId::kappa};
+  study.fit.gauge = datasets::Gauge::fixed;
+  const auto base = fit_with(study, study.material, {}, quick());
+  ASSERT_TRUE(base.has_value()) << base.error().message;
+  const auto& weights = base->fit.noise.weights;
+  const auto found = log_predictive_density(study, *base, weights, 2);
+  ASSERT_TRUE(found.has_value()) << found.error().message;
+  ASSERT_EQ(weights.size(), 2U);
+
+  double expected = 0.0;
+  for (std::size_t out = 0; out < 2; ++out) {
+    // both tests' whitened rows; those of the other one are the data, those of `out` the prediction
+    calibration::Problem both = calibration::problem_of(study, base->fit, {}, 1);
+    both.set_weights(weights);
+    const auto first = static_cast<Eigen::Index>(both.fitted()[0]->measured().size());
+    std::vector<double> x = base->fit.result.main.coordinates;
+    Eigen::MatrixXd covariance;
+    for (int step = 0; step < 4; ++step) {  // Gauss-Newton on the other test alone
+      const auto at = both.linearise(x);
+      ASSERT_TRUE(at.has_value());
+      const Eigen::Index rest = at->residuals.size() - first;
+      const Eigen::MatrixXd J = out == 0 ? at->jacobian.bottomRows(rest) : at->jacobian.topRows(first);
+      const Eigen::VectorXd r = out == 0 ? at->residuals.tail(rest) : at->residuals.head(first);
+      covariance = (J.transpose() * J).inverse();
+      const Eigen::VectorXd move = covariance * (J.transpose() * r);
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] -= move[static_cast<Eigen::Index>(k)];
+    }
+    const auto at = both.linearise(x);
+    ASSERT_TRUE(at.has_value());
+    const Eigen::Index rest = at->residuals.size() - first;
+    expected += out == 0 ? log_normal(at->residuals.head(first), at->jacobian.topRows(first), covariance)
+                         : log_normal(at->residuals.tail(rest), at->jacobian.bottomRows(rest), covariance);
+  }
+  EXPECT_NEAR(*found, expected, 0.05) << "of " << expected;
+}
+
+TEST(Probabilities, BelowWhatReplicatesTellAreSaidToBeBelow) {
+  EXPECT_EQ(p_words(ScoreTest{{}, {}, {}, std::vector<double>(5000, 1.0)}.p_value(2.0)), "p < 0.0002");
+  EXPECT_EQ(p_words(0.0314), "p = 0.031");
 }
 
 }  // namespace
