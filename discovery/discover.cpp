@@ -9,6 +9,7 @@
 
 #include "discovery/left_out.hpp"
 #include "discovery/limits.hpp"
+#include "discovery/meets_noise.hpp"
 
 namespace isotach::discovery {
 
@@ -101,6 +102,9 @@ class Search {
       if (effect->test != effects::TestKind::oedometer) continue;
       if (study_.effects.has(*effect)) {
         found_.not_tried.emplace_back(effect, "the model has it already");
+      } else if (std::find(options_.without.begin(), options_.without.end(), effect) !=
+                 options_.without.end()) {
+        found_.not_tried.emplace_back(effect, "left out on request");
       } else if (auto why = lacks(study_, *effect)) {
         found_.not_tried.emplace_back(effect, *why);
       } else {
@@ -182,7 +186,7 @@ class Search {
                             ? 0.0
                             : found_.base.candidate.chi_squared - found_.trials.front().candidate.chi_squared;
     found_.p_value = found_.scores.p_value(gain);
-    found_.base.adequacy.meets_noise = found_.base.candidate.fit.result.adequate;
+    found_.base.adequacy.meets_noise = meets_noise(found_.base.candidate.fit, noise.noise);
     found_.base.adequacy.p_value = found_.p_value;
     found_.base.adequate = !rejected();
     for (Trial& trial : found_.trials) {
@@ -201,7 +205,7 @@ class Search {
     const auto left =
         score(study_, trial.candidate, others, trial.candidate.fit.noise.weights, options_.threads);
     if (!left) return left.error();
-    trial.adequacy.meets_noise = trial.candidate.fit.result.adequate;
+    trial.adequacy.meets_noise = meets_noise(trial.candidate.fit, trial.candidate.fit.noise);
     trial.adequacy.most = nullptr;
     trial.adequacy.p_value = 1.0;
     if (!left->best.empty()) {

@@ -70,6 +70,8 @@ struct Discovery {
 struct DiscoverOptions {
   int threads = 1;
   calibration::OptimiserControl control;
+  /// Effects of the catalogue that are not considered.
+  std::vector<const effects::Effect*> without{};
   /// Fraction of the work done, and what is being done; may be empty.
   std::function<void(double, const std::string&)> progress;
 };

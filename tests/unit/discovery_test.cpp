@@ -10,6 +10,7 @@
 
 #include "discovery/discover.hpp"
 #include "discovery/left_out.hpp"
+#include "discovery/meets_noise.hpp"
 
 namespace isotach::discovery {
 namespace {
@@ -43,7 +44,7 @@ calibration::OedometerFitOptions quick() {
 }
 
 Discovery discovered(const datasets::Study& study) {
-  auto found = discover_oedometer(study, {.threads = 2, .control = {}, .progress = {}});
+  auto found = discover_oedometer(study, {.threads = 2, .control = {}, .without = {}, .progress = {}});
   if (!found) throw std::runtime_error(found.error().message);
   return std::move(*found);
 }
@@ -93,6 +94,22 @@ TEST(Discovery, ScoresAreThoseOfLeastSquares) {
   }
 }
 
+TEST(Discovery, EffectsLeftOutAreNotTried) {
+  const effects::Effect& friction = *effects::find_effect("ring_friction");
+  const datasets::Study study =
+      hidden(*effects::Values<double>::create({effects::with_amplitude(friction, 0.1)}));
+  DiscoverOptions options;
+  options.threads = 2;
+  for (const effects::Effect* effect : effects::catalogue()) {
+    if (effect->name != "sensor_drift") options.without.push_back(effect);
+  }
+  const auto found = discover_oedometer(study, options);
+  ASSERT_TRUE(found.has_value()) << found.error().message;
+  EXPECT_EQ(found->verdict, Verdict::unknown);
+  ASSERT_EQ(found->trials.size(), 1U);
+  EXPECT_EQ(found->trials.front().candidate.added.front()->name, "sensor_drift");
+}
+
 /// ln of the normal density of whitened residuals r with derivatives J by coordinates of covariance C, but
 /// for the constant: by the whole covariance of r.
 double log_normal(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
@@ -140,6 +157,27 @@ TEST(LeftOut, IsTheDensityOfAPredictionWithItsUncertainty) {
                          : log_normal(at->residuals.tail(rest), at->jacobian.bottomRows(rest), covariance);
   }
   EXPECT_NEAR(*found, expected, 0.05) << "of " << expected;
+}
+
+TEST(MeetsNoise, EffectiveCountIsThatOfSeriesThatScatterAsMuch) {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  constexpr int kSeries = 20000;
+  constexpr int kCount = 60;
+  for (const double rho : {0.0, 0.4, 0.7}) {
+    double sum = 0.0;
+    for (int s = 0; s < kSeries; ++s) {
+      double value = normal(random);
+      double squares = 0.0;
+      for (int i = 0; i < kCount; ++i) {
+        squares += value * value;
+        value = rho * value + std::sqrt(1.0 - rho * rho) * normal(random);
+      }
+      sum += std::pow(squares / kCount - 1.0, 2);
+    }
+    // the variance of the mean square of n independent values is 2/n
+    EXPECT_NEAR(2.0 / (sum / kSeries) / effective_count(kCount, rho), 1.0, 0.06) << rho;
+  }
 }
 
 TEST(Probabilities, BelowWhatReplicatesTellAreSaidToBeBelow) {
