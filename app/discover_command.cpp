@@ -1,14 +1,18 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // isotach discover: does the model suffice, and if not, what is missing?
-#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <array>
+#include <map>
+#include <memory>
+#include <string_view>
 
 #include "app/command.hpp"
+#include "app/discover_study.hpp"
+#include "app/fit_journal.hpp"
 #include "app/interrupt.hpp"
 #include "datasets/input_error.hpp"
 #include "datasets/study.hpp"
-#include "discovery/discover.hpp"
 #include "reports/curves_csv.hpp"
-#include "reports/discovery_report.hpp"
 #include "reports/parameters_toml.hpp"
 #include "reports/result_json.hpp"
 #include "reports/terminal_progress.hpp"
@@ -17,34 +21,38 @@ namespace isotach::app {
 
 namespace {
 
-int discover(const CommonOptions& options) {
+int discover(const CommonOptions& options, const JournalLine& journal_line, TestsLookedAt tests) {
   const Run run("discover", options.input);
   const datasets::Study study = datasets::read_study(options.input, options.read_options());
-  if (std::all_of(study.oedometer_tests.begin(), study.oedometer_tests.end(),
-                  [](const auto& test) { return test.hold_out; })) {
-    throw datasets::InputError(datasets::FilePlace{study.file}, "[[oedometer]]", "none that is not held out",
-                               "at least one test to fit");
+  const bool slumps = tests != TestsLookedAt::oedometer && fits_any(study.slump_tests);
+  if (!slumps && (tests == TestsLookedAt::slump || !fits_any(study.oedometer_tests))) {
+    constexpr std::array<std::string_view, 3> kSubjects{"[[oedometer]] and [[slump]]", "[[oedometer]]",
+                                                        "[[slump]]"};
+    throw datasets::InputError(datasets::FilePlace{study.file},
+                               std::string(kSubjects[static_cast<std::size_t>(tests)]),
+                               "none that is not held out", "at least one test to fit");
   }
   reports::OutputDirectory output(options.out);
+  FitJournal journal(slumps ? journal_line : JournalLine{{}, true}, options, study);
   reports::Progress progress("discover", options.quiet);
-  discovery::DiscoverOptions discover_options;
-  discover_options.threads = options.threads;
-  discover_options.control.stop = &interrupted();
-  discover_options.progress = [&](double fraction, const std::string& what) {
-    progress.update(fraction, what);
-  };
-  const auto found = discovery::discover_oedometer(study, discover_options);
-  const reports::RunInfo info = run.info();
+  const auto found = discover_study(
+      study, {options.threads, journal.at_once(options.threads), journal.simulate(),
+              [&](double fraction, const std::string& what) { progress.update(fraction, what); }, tests});
+  reports::RunInfo info = run.info();
+  info.warnings = journal.warnings();
   if (!found) {
+    if (found.error().interrupted) journal.tell_rest(options.quiet);
     return end_failed(output, reports::failure_json(info, found.error()), found.error().message,
                       found.error().interrupted);
   }
   progress.finish();
-  const discovery::Candidate& answer =
-      found->chosen ? found->trials[*found->chosen].candidate : found->base.candidate;
   output.write_text("report.html", reports::discovery_report(info, study, *found).html());
-  output.write_text("parameters.toml", reports::parameters_toml(info, answer.fit));
-  reports::write_curves(output, answer.fit);
+  output.write_text("parameters.toml", reports::parameters_toml(info, *found));
+  if (found->oedometer) {
+    const discovery::Discovery& oedometer = *found->oedometer;
+    reports::write_curves(output, oedometer.chosen ? oedometer.trials[*oedometer.chosen].candidate.fit
+                                                   : oedometer.base.candidate.fit);
+  }
   output.write_json("result.json", reports::result_json(info, study, *found));
   return end_done(output, options.quiet);
 }
@@ -53,7 +61,15 @@ int discover(const CommonOptions& options) {
 
 Runner discover_command(CLI::App& line, CommonOptions& common) {
   add_input(line, common, "STUDY");
-  return [&common] { return discover(common); };
+  const auto journal = std::make_shared<JournalLine>();
+  add_journal_options(line, *journal);
+  const auto tests = std::make_shared<TestsLookedAt>(TestsLookedAt::all);
+  const std::map<std::string, TestsLookedAt> kinds{{"oedometer", TestsLookedAt::oedometer},
+                                                   {"slump", TestsLookedAt::slump}};
+  line.add_option("--only", *tests, "look at tests of one kind: oedometer (seconds) or slump (minutes)")
+      ->transform(CLI::Transformer(kinds))
+      ->check(CLI::IsMember({TestsLookedAt::oedometer, TestsLookedAt::slump}));
+  return [&common, journal, tests] { return discover(common, *journal, *tests); };
 }
 
 }  // namespace isotach::app

@@ -6,18 +6,19 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/discover_study.hpp"
 #include "app/fit_journal.hpp"
 #include "app/interrupt.hpp"
 #include "calibration/calibrate.hpp"
 #include "datasets/input_error.hpp"
 #include "datasets/study.hpp"
-#include "discovery/discover.hpp"
 #include "reports/calibration_report.hpp"
 #include "reports/curves_csv.hpp"
 #include "reports/discovery_report.hpp"
 #include "reports/oedometer_report.hpp"
 #include "reports/parameters_toml.hpp"
 #include "reports/result_json.hpp"
+#include "reports/slump_discovery_report.hpp"
 #include "reports/slump_fit_report.hpp"
 #include "reports/terminal_progress.hpp"
 
@@ -157,28 +158,29 @@ int calibrate(const CommonOptions& options, const JournalLine& journal_line) {
   calibrate_options.threads = options.threads;
   calibrate_options.slump_threads = journal.at_once(options.threads);
   calibrate_options.stop = &interrupted();
+  constexpr double kFits = 0.7;  // of the work; discovery is the rest
   calibrate_options.progress = [&](double fraction, const std::string& what) {
-    progress.update(fraction, what);
+    progress.update(kFits * fraction, what);
   };
   const auto result = calibration::calibrate(study, calibrate_options);
   if (!result) return failed(output, info_of(run, journal), result.error(), journal, options.quiet);
-  discovery::DiscoverOptions discover_options;
-  discover_options.threads = options.threads;
-  discover_options.control.stop = &interrupted();
-  discover_options.progress = [&](double, const std::string& what) {
-    progress.update(0.98, "discovery: " + what);
-  };
-  const auto found = discovery::discover_oedometer(study, discover_options);
+  const auto found =
+      discover_study(study, {options.threads, journal.at_once(options.threads), journal.simulate(),
+                             [&](double fraction, const std::string& what) {
+                               progress.update(kFits + (1.0 - kFits) * fraction, "discovery: " + what);
+                             }});
   const reports::RunInfo info = info_of(run, journal);
   if (!found) return failed(output, info, found.error(), journal, options.quiet);
   progress.finish();
   reports::Page page = reports::calibration_report(info, study, *result);
-  reports::add_discovery(page, *found);
+  reports::add_discovery(page, *found->oedometer);
+  reports::add_slump_discovery(page, *found->slump);
   output.write_text("report.html", page.html());
   output.write_text("parameters.toml", reports::parameters_toml(info, *result));
   reports::write_curves(output, *result);
   auto json = reports::result_json(info, study, *result);
-  json["discover"] = {{"oedometer", reports::discovery_json(*found)}, {"slump", nullptr}};
+  json["discover"] = {{"oedometer", reports::discovery_json(*found->oedometer)},
+                      {"slump", reports::discovery_json(*found->slump)}};
   output.write_json("result.json", json);
   return end_done(output, options.quiet);
 }

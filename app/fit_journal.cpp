@@ -9,6 +9,7 @@
 
 #include "app/interrupt.hpp"
 #include "cluster/ranks.hpp"
+#include "datasets/slump_effects.hpp"
 #include "mpm/code_version.hpp"
 
 namespace isotach::app {
@@ -27,7 +28,9 @@ std::filesystem::path file_of(const JournalLine& line, const CommonOptions& opti
 std::vector<std::string> setup_keys(const datasets::Study& study) {
   std::vector<std::string> keys;
   for (const datasets::SlumpTest& test : study.slump_tests) {
-    keys.push_back(journal::Inputs(study.material, test.setup, mpm::code_version()).setup_key);
+    keys.push_back(journal::Inputs(study.material, datasets::with_effects(test.setup, study.effects),
+                                   mpm::code_version())
+                       .setup_key);
   }
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());

@@ -35,6 +35,9 @@ inline constexpr double kPredictsNoWorse = 0.0;
 inline constexpr std::size_t kRefitted = 6;
 /// Effects that are tried two at a time.
 inline constexpr std::size_t kPaired = 4;
+/// The same of slump tests, where a fit is a dozen sets of simulations.
+inline constexpr std::size_t kSlumpRefitted = 3;
+inline constexpr std::size_t kSlumpPaired = 3;
 /// Share of its size to which a name's shape parameters are tried, and its inverse, in the score.
 inline constexpr double kShapeStep = 3.0;
 

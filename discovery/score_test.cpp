@@ -43,8 +43,18 @@ double counted(const Signature& signature, double z) {
   return one_sided(*signature.effect) ? std::max(z, 0.0) : std::abs(z);
 }
 
-/// The largest of the signatures' squares under noise.
-std::vector<double> null_of(const std::vector<Signature>& signatures) {
+const Signature* best_signature(const ScoreTest& test, const effects::Effect& effect) {
+  const Signature* best = nullptr;
+  for (const Signature& signature : test.signatures) {
+    if (signature.effect != &effect) continue;
+    if (best == nullptr || counted(signature, signature.z) > counted(*best, best->z)) best = &signature;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<double> largest_under_noise(const std::vector<Signature>& signatures) {
   const auto n = static_cast<Eigen::Index>(signatures.size());
   if (n == 0) return {};
   Eigen::MatrixXd all(signatures.front().unit.size(), n);
@@ -71,16 +81,10 @@ std::vector<double> null_of(const std::vector<Signature>& signatures) {
   return largest;
 }
 
-const Signature* best_signature(const ScoreTest& test, const effects::Effect& effect) {
-  const Signature* best = nullptr;
-  for (const Signature& signature : test.signatures) {
-    if (signature.effect != &effect) continue;
-    if (best == nullptr || counted(signature, signature.z) > counted(*best, best->z)) best = &signature;
-  }
-  return best;
+double gain_of(const Signature& signature) {
+  const double size = counted(signature, signature.z);
+  return size * size;
 }
-
-}  // namespace
 
 double ScoreTest::p_value(double largest) const {
   const auto above = null_largest.end() - std::lower_bound(null_largest.begin(), null_largest.end(), largest);
@@ -136,7 +140,7 @@ tl::expected<ScoreTest, calibration::FitFailure> score(
     test.effects.push_back(effect);
     test.best.push_back(best);
   }
-  test.null_largest = null_of(test.signatures);
+  test.null_largest = largest_under_noise(test.signatures);
   return test;
 }
 

@@ -30,6 +30,12 @@ struct ScoreTest {
   std::vector<double> null_largest;  ///< sorted, of the bootstrap
 };
 
+/// The largest of the signatures' z^2 under noise, each with its admissible sign: kReplicates of them,
+/// sorted.
+[[nodiscard]] std::vector<double> largest_under_noise(const std::vector<Signature>& signatures);
+/// z^2, zero where z has a sign that the effect's amplitude cannot have.
+[[nodiscard]] double gain_of(const Signature& signature);
+
 /// Scores of `effects` on top of `model`, by `weights` (of the fitted tests, as NoiseFit's).
 [[nodiscard]] tl::expected<ScoreTest, calibration::FitFailure> score(
     const datasets::Study& study, const Candidate& model, const std::vector<const effects::Effect*>& effects,

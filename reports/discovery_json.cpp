@@ -3,6 +3,7 @@
 #include "reports/discovery_report.hpp"
 #include "reports/json_number.hpp"
 #include "reports/result_head.hpp"
+#include "reports/slump_discovery_report.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -85,18 +86,15 @@ ordered_json discovery_json(const discovery::Discovery& found) {
   return json;
 }
 
-ordered_json result_json(const RunInfo& run, const datasets::Study& study,
-                         const discovery::Discovery& found) {
-  std::vector<std::string> warnings;
-  if (!study.slump_tests.empty()) {
-    warnings.emplace_back("the slump tests were not looked at: discovery knows oedometer tests only");
-  }
-  ordered_json json = result_head(run, "ok", warnings);
-  if (study.slump_tests.empty()) {
-    json.update(discovery_json(found));
+ordered_json result_json(const RunInfo& run, const datasets::Study& study, const Discoveries& found) {
+  ordered_json json = result_head(run, "ok", {});
+  const ordered_json oedometer = found.oedometer ? discovery_json(*found.oedometer) : ordered_json(nullptr);
+  const ordered_json slump = found.slump ? discovery_json(*found.slump) : ordered_json(nullptr);
+  if (!study.oedometer_tests.empty() && !study.slump_tests.empty()) {
+    json["oedometer"] = oedometer;
+    json["slump"] = slump;
   } else {
-    json["oedometer"] = discovery_json(found);
-    json["slump"] = nullptr;
+    json.update(found.oedometer ? oedometer : slump);
   }
   return json;
 }

@@ -9,6 +9,7 @@
 #include "discovery/limits.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
+#include "reports/slump_discovery_report.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -238,14 +239,9 @@ void add_discovery(Page& page, const Discovery& found) {
   add_explanations(page, found);
 }
 
-Page discovery_report(const RunInfo& run, const datasets::Study& study, const Discovery& found) {
-  Page page("Discovery", subtitle(run));
-  add_verdict(page, found);
-  add_warnings(page, run.warnings);
-  if (!study.slump_tests.empty()) {
-    page.verdict(Tone::plain, "The slump tests were not looked at: discovery knows oedometer tests only.");
-  }
-  add_data_note(page, study);
+namespace {
+
+void add_evidence(Page& page, const Discovery& found) {
   page.fact("Verdict", std::string(name_of(found.verdict)));
   page.fact("Noise alone would let some effect improve the fit as much", discovery::p_words(found.p_value));
   page.table(disagreement_table(found, kStagesOnFirstPage));
@@ -280,6 +276,17 @@ Page discovery_report(const RunInfo& run, const datasets::Study& study, const Di
       "left out of the fit that are no worse than the base's (log predictive density, which weighs how well "
       "the other tests hold the parameters). Tests held out take no part in any of it.",
       discovery::kRejects, discovery::kReplicates, discovery::kLeavesNothing, discovery::kMargin));
+}
+
+}  // namespace
+
+Page discovery_report(const RunInfo& run, const datasets::Study& study, const Discoveries& found) {
+  Page page("Discovery", subtitle(run));
+  if (found.oedometer) add_verdict(page, *found.oedometer);
+  add_warnings(page, run.warnings);
+  add_data_note(page, study);
+  if (found.oedometer) add_evidence(page, *found.oedometer);
+  if (found.slump) add_slump_discovery(page, *found.slump);
   return page;
 }
 

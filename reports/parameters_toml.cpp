@@ -4,11 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "calibration/uncertainty.hpp"
 #include "reports/estimates.hpp"
 
 namespace isotach::reports {
@@ -84,13 +88,35 @@ std::string effect_decimal(const effects::EffectParameter& parameter, double si)
   return shortest_decimal(si / parameter.to_si, [&](double read) { return parameter.to_si * read == si; });
 }
 
+/// Effects and those of their parameters that a fit moved.
+struct FittedEffects {
+  effects::Values<double> effects;
+  std::vector<effects::ParameterRef> moved;
+};
+
+FittedEffects effects_of(const effects::Values<double>& effects, const calibration::FitResult& result) {
+  FittedEffects fitted{effects, {}};
+  for (const auto& estimate : result.local_estimates) {
+    if (estimate.effect) fitted.moved.push_back(*estimate.effect);
+  }
+  return fitted;
+}
+
+/// Those of both; of effects that both have, the ones of tests of the second's kind.
+FittedEffects merged(FittedEffects first, const FittedEffects& second, effects::TestKind kind) {
+  for (const auto& one : second.effects.chosen()) {
+    if (one.effect->test != kind && first.effects.has(*one.effect)) continue;
+    if (auto with = first.effects.with(one)) first.effects = std::move(*with);
+  }
+  first.moved.insert(first.moved.end(), second.moved.begin(), second.moved.end());
+  return first;
+}
+
 /// [effects], empty where there are none.
-std::string render_effects(const calibration::OedometerFit& fit) {
+std::string render_effects(const FittedEffects& fit) {
   if (fit.effects.empty()) return {};
   const auto fitted = [&](const effects::ParameterRef& parameter) {
-    const auto& estimates = fit.result.local_estimates;
-    return std::any_of(estimates.begin(), estimates.end(),
-                       [&](const auto& estimate) { return estimate.effect == parameter; });
+    return std::find(fit.moved.begin(), fit.moved.end(), parameter) != fit.moved.end();
   };
   std::string text = "\n[effects]\n";
   for (const auto& one : fit.effects.chosen()) {
@@ -122,11 +148,12 @@ std::vector<Origin> all_by(const calibration::FitResult& result, std::string_vie
 std::string parameters_toml(const RunInfo& run, const calibration::OedometerFit& fit) {
   return render(run, all_by(fit.result, kByOedometer), fit.result.parameters->lode(),
                 {gauge_sentence(fit.result)}) +
-         render_effects(fit);
+         render_effects(effects_of(fit.effects, fit.result));
 }
 
 std::string parameters_toml(const RunInfo& run, const calibration::SlumpFit& fit) {
-  return render(run, all_by(fit.result, kBySlump), fit.result.parameters->lode(), {});
+  return render(run, all_by(fit.result, kBySlump), fit.result.parameters->lode(), {}) +
+         render_effects(effects_of(fit.effects, fit.result));
 }
 
 std::string parameters_toml(const RunInfo& run, const calibration::Calibration& calibration) {
@@ -136,7 +163,64 @@ std::string parameters_toml(const RunInfo& run, const calibration::Calibration& 
   }
   return render(run, origins, calibration.slump.result.parameters->lode(),
                 {gauge_sentence(calibration.oedometer.result)}) +
-         render_effects(calibration.oedometer);
+         render_effects(merged(effects_of(calibration.oedometer.effects, calibration.oedometer.result),
+                               effects_of(calibration.slump.effects, calibration.slump.result),
+                               effects::TestKind::slump));
+}
+
+namespace {
+
+FittedEffects effects_of(const discovery::SlumpCandidate& candidate) {
+  FittedEffects fitted{candidate.effects, {}};
+  for (const auto& coordinate : candidate.problem->parametrisation().coordinates()) {
+    if (coordinate.effect) fitted.moved.push_back(*coordinate.effect);
+  }
+  return fitted;
+}
+
+/// The material of a candidate; standard errors by its linearised problem.
+std::vector<Origin> origins_of(const discovery::SlumpCandidate& candidate) {
+  const Eigen::MatrixXd information = candidate.at.jacobian.transpose() * candidate.at.jacobian;
+  const Eigen::MatrixXd covariance = information.completeOrthogonalDecomposition().pseudoInverse();
+  std::vector<Origin> origins;
+  for (const auto& parameter : model::kParameterTable) {
+    ParameterEstimate estimate{parameter.id, (*candidate.parameters)[parameter.id]};
+    const auto& coordinates = candidate.problem->parametrisation().coordinates();
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      if (coordinates[k].id != parameter.id) continue;
+      const auto i = static_cast<Eigen::Index>(k);
+      estimate.std_error =
+          std::abs(coordinates[k].slope(candidate.at.coordinates[k])) * std::sqrt(covariance(i, i));
+      estimate.verdict = calibration::judge(
+          1.96 * estimate.std_error, calibration::range_of(parameter.id, *candidate.parameters), false);
+    }
+    origins.push_back({estimate, kBySlump});
+  }
+  return origins;
+}
+
+}  // namespace
+
+std::string parameters_toml(const RunInfo& run, const Discoveries& found) {
+  std::optional<FittedEffects> effects;
+  std::string text;
+  if (found.oedometer) {
+    const discovery::Discovery& oedometer = *found.oedometer;
+    const calibration::OedometerFit& fit =
+        oedometer.chosen ? oedometer.trials[*oedometer.chosen].candidate.fit : oedometer.base.candidate.fit;
+    text = render(run, all_by(fit.result, kByOedometer), fit.result.parameters->lode(),
+                  {gauge_sentence(fit.result)});
+    effects = effects_of(fit.effects, fit.result);
+  }
+  if (found.slump) {
+    const discovery::SlumpDiscovery& slump = *found.slump;
+    const discovery::SlumpCandidate& candidate =
+        slump.chosen ? slump.trials[*slump.chosen].candidate : slump.base.candidate;
+    if (!effects) text = render(run, origins_of(candidate), candidate.parameters->lode(), {});
+    effects = effects ? merged(std::move(*effects), effects_of(candidate), effects::TestKind::slump)
+                      : effects_of(candidate);
+  }
+  return effects ? text + render_effects(*effects) : text;
 }
 
 }  // namespace isotach::reports

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "calibration/calibrate.hpp"
+#include "reports/discovery_report.hpp"
 #include "reports/run_info.hpp"
 
 namespace isotach::reports {
@@ -15,5 +16,7 @@ namespace isotach::reports {
 [[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::OedometerFit& fit);
 [[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::SlumpFit& fit);
 [[nodiscard]] std::string parameters_toml(const RunInfo& run, const calibration::Calibration& calibration);
+/// The material by the oedometer tests, where there are any; the effects of both kinds of test.
+[[nodiscard]] std::string parameters_toml(const RunInfo& run, const Discoveries& found);
 
 }  // namespace isotach::reports

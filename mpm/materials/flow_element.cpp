@@ -16,12 +16,13 @@ double FlowElement::flow_rate(double trial, double dt) const {
   if (consistency == 0.0) return high;
   double rate = std::min(high, std::pow(excess / consistency, 1.0 / flow_index));
   constexpr int kMostIterations = 100;
+  constexpr double kLast = 1e-5;  // of the rate: after a step of Newton's so short the error is its square
   for (int n = 0; n < kMostIterations && high - low > 1e-14 * high; ++n) {
     const double viscous = consistency * std::pow(rate, flow_index);
     const double left = excess - elastic * rate - viscous;
     (left > 0.0 ? low : high) = rate;
     const double next = rate + left / (elastic + flow_index * viscous / rate);
-    if (std::abs(next - rate) <= 1e-14 * rate) return next;
+    if (std::abs(next - rate) <= kLast * rate) return next;
     rate = next > low && next < high ? next : 0.5 * (low + high);
   }
   return rate;

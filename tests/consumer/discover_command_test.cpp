@@ -17,7 +17,7 @@ std::string study_of(const char* mud) {
 class DiscoverCommand : public ConsumerTest {
  protected:
   [[nodiscard]] json discovered(const std::string& study) const {
-    const Ended ended = run({"discover", study, "--out", "out", "--threads", "2"});
+    const Ended ended = run({"discover", study, "--only", "oedometer", "--out", "out", "--threads", "2"});
     EXPECT_EQ(ended.code, 0) << ended.err;
     return json::parse(contents("out/result.json"));
   }
@@ -67,6 +67,7 @@ TEST_F(DiscoverCommand, RefusesAStudyWithoutOedometerTests) {
         "phi_c_deg = 15\nC_1 = 0.05\n");
   expect_refused({"discover", "study.toml"}, {"study.toml"});
   expect_refused({"discover", "none.toml"}, {"none.toml"});
+  expect_refused({"discover", "study.toml", "--only", "slumps"}, {"--only"});
 }
 
 }  // namespace

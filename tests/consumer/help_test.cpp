@@ -12,7 +12,7 @@ namespace {
 /// Each command with what its help must name beside the options that all have.
 const std::map<std::string, std::vector<std::string>> kCommands{
     {"calibrate", {" STUDY", "--max-file-mb", "--journal", "--no-journal", "--time-limit"}},
-    {"discover", {" STUDY", "--max-file-mb"}},
+    {"discover", {" STUDY", "--max-file-mb", "--journal", "--no-journal", "--time-limit", "--only"}},
     {"element",
      {" TEST", "--max-file-mb", "--integrator", "fellin-ostermann", "cvode", "rosenbrock", "--tolerance"}},
     {"fit-oedometer", {" STUDY", "--max-file-mb"}},

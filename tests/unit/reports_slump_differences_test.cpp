@@ -27,7 +27,7 @@ ComparedSlump slump_of(const std::string& name, const std::vector<Extent>& exten
     result.outlines.push_back({time, {{toe, 0.0}, {0.5 * toe, height}, {0.0, height}}});
   }
   result.history.push_back({});
-  return {name, {name + ".toml", tests::seed_mud(), setup, {}}, std::move(result)};
+  return {name, {name + ".toml", tests::seed_mud(), setup, {}, {}}, std::move(result)};
 }
 
 class SlumpDifferences : public testing::Test {

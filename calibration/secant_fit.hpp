@@ -1,0 +1,41 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// Gauss-Newton with secants for derivatives: few evaluations, where each is a set of simulations.
+#pragma once
+
+#include "calibration/optimisers.hpp"
+
+namespace isotach::calibration {
+
+/// A point of a problem with what is known there.
+struct SecantPoint {
+  std::vector<double> coordinates;
+  Eigen::VectorXd residuals;  ///< weighted, priors below
+  Eigen::MatrixXd jacobian;   ///< of them by the coordinates; columns that are zero stay where they are
+
+  [[nodiscard]] double cost() const { return cost_of(residuals); }
+};
+
+struct SecantOptions {
+  int max_evaluations = 8;
+  double cost_tolerance = 0.5;  ///< a step that promises no more ends the search
+};
+
+struct SecantFit {
+  SecantPoint at;
+  int evaluations = 0;
+  bool converged = false;
+  bool interrupted = false;
+  std::string last_failure;  ///< of evaluations that could not be made
+};
+
+/// From `start`, whose Jacobian may be of differences as wide as the search: steps to the least of the linear
+/// problem within bounds and kLongestStep, the Jacobian corrected by what each step finds (Broyden 1965);
+/// steps that lead up or fail are shortened.
+[[nodiscard]] SecantFit minimise_by_secants(const Problem& problem, const SecantPoint& start,
+                                            const SecantOptions& options, const OptimiserControl& control);
+
+/// The step from a point to the least of |r + J dx| with the coordinates within their bounds and no further
+/// than `longest` (of each; logarithms and numbers of typical values) from where they are.
+[[nodiscard]] Eigen::VectorXd bounded_step(const Problem& problem, const SecantPoint& at, double longest);
+
+}  // namespace isotach::calibration

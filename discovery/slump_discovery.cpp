@@ -1,0 +1,499 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/slump_discovery.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "calibration/fit_slump.hpp"
+#include "calibration/parallel.hpp"
+#include "datasets/slump_effects.hpp"
+#include "discovery/limits.hpp"
+#include "discovery/slump_disagreement.hpp"
+#include "discovery/slump_next.hpp"
+
+namespace isotach::discovery {
+
+namespace {
+
+using calibration::FitFailure;
+using Effects = std::vector<const effects::Effect*>;
+
+constexpr int kBaseEvaluations = 7;
+constexpr int kTrialEvaluations = 4;
+constexpr double kShapeMove = 0.4;  // of a logarithm, for the difference by a shape
+// Beyond its noise an outline may be off by this much of it and still count as met, as in fits.
+constexpr double kMost = calibration::kAdequate;
+
+/// Parts of `rows` that columns cannot make.
+Eigen::VectorXd freed(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  return rows - basis * (basis.transpose() * rows);
+}
+
+bool contains(const Effects& all, const Effects& some) {
+  return std::all_of(some.begin(), some.end(), [&](const effects::Effect* effect) {
+    return std::find(all.begin(), all.end(), effect) != all.end();
+  });
+}
+
+Signature signature_of(const effects::Effect* effect, const Eigen::VectorXd& change,
+                       const SlumpCandidate& model) {
+  constexpr double kNothingLeft = 1e-6;
+  Signature found{effect, Eigen::VectorXd::Zero(change.size()), 1.0, 0.0};
+  const Eigen::VectorXd left = freed(model.at.jacobian, change);
+  if (left.norm() <= kNothingLeft * change.norm()) return found;
+  found.absorbed = std::sqrt(std::max(0.0, 1.0 - left.squaredNorm() / change.squaredNorm()));
+  found.unit = left.normalized();
+  found.z = -found.unit.dot(model.at.residuals);
+  return found;
+}
+
+class SlumpSearch {
+ public:
+  SlumpSearch(const datasets::Study& study, const SlumpDiscoverOptions& options)
+      : study_(study),
+        options_(options),
+        basis_{study,
+               options.knowledge ? options.knowledge->parameters : study.material,
+               {},
+               {},
+               {},
+               options.threads,
+               options.control.quiet()} {
+    const experiments::Simulate simulate =
+        options.simulate ? options.simulate : calibration::plain_simulation(options.control.stop);
+    basis_.simulate = [this, simulate](const auto&... arguments) {
+      ++simulations_;
+      return simulate(arguments...);
+    };
+  }
+
+  tl::expected<SlumpDiscovery, FitFailure> run() {
+    if (auto failure = fit_base()) return tl::unexpected(*failure);
+    if (auto failure = score_all()) return tl::unexpected(*failure);
+    if (auto failure = try_best()) return tl::unexpected(*failure);
+    weigh();
+    if (rejected()) {
+      if (auto failure = try_pairs()) return tl::unexpected(*failure);
+      weigh();
+    }
+    if (auto failure = compare()) return tl::unexpected(*failure);
+    decide();
+    found_.simulations = simulations_;
+    tell(1.0, "done");
+    return std::move(found_);
+  }
+
+ private:
+  void tell(double done, const std::string& what) const {
+    if (options_.progress) options_.progress(done, what);
+  }
+  [[nodiscard]] static FitFailure interrupted() { return {"interrupted", true}; }
+
+  std::optional<FitFailure> fit_base() {
+    tell(0.0, "error of the simulations");
+    auto error = calibration::measure_simulation_error(study_, basis_.start, basis_.simulate, basis_.threads);
+    if (!error) return error.error();
+    basis_.error = std::move(*error);
+    tell(0.15, "fit of the base");
+    SlumpCandidate bare = slump_candidate(basis_, {});
+    const std::vector<double> start = bare.problem->parametrisation().start();
+    const auto at = bare.problem->linearise(start);
+    if (!at) return FitFailure{at.error().message, at.error().interrupted};
+    know(bare, *at);
+    SlumpCandidate base = slump_candidate(basis_, {});
+    base.at = {start, at->residuals, at->jacobian};
+    append_priors(base);
+    auto fit = calibration::minimise_by_secants(*base.problem, base.at, {kBaseEvaluations}, basis_.control);
+    if (fit.interrupted) return interrupted();
+    base.at = std::move(fit.at);
+    base.converged = fit.converged;
+    conclude(base);
+    found_.base.candidate = std::move(base);
+    return std::nullopt;
+  }
+
+  /// Oedometer tests know the material no better than simulations can tell it: their errors, and by how much
+  /// other cells would move the coordinates.
+  void know(const SlumpCandidate& bare, const calibration::Linearised& at) {
+    if (!options_.knowledge) return;
+    SlumpTests fitted;
+    std::copy_if(bare.tests.begin(), bare.tests.end(), std::back_inserter(fitted),
+                 [](const auto& test) { return !test->held_out(); });
+    const auto shifts = calibration::numerical_shifts(at, fitted, basis_.error);
+    const Eigen::MatrixXd numerics = calibration::numerical_covariance(shifts, at.jacobian.cols());
+    basis_.priors = options_.knowledge->priors;
+    const auto& coordinates = bare.problem->parametrisation().coordinates();
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      if (!coordinates[k].id) continue;
+      auto& prior = basis_.priors[static_cast<std::size_t>(*coordinates[k].id)];
+      if (!prior) continue;
+      const auto i = static_cast<Eigen::Index>(k);
+      const double slope = coordinates[k].logarithmic ? prior->mean : 1.0;
+      prior->std_error = std::hypot(prior->std_error, slope * std::sqrt(numerics(i, i)));
+    }
+  }
+
+  /// Rows of priors below residuals that were simulated without.
+  void append_priors(SlumpCandidate& base) const {
+    const auto& coordinates = base.problem->parametrisation().coordinates();
+    const auto values = static_cast<Eigen::Index>(base.problem->value_count());
+    const auto rows = static_cast<Eigen::Index>(base.problem->residual_count());
+    base.at.residuals.conservativeResize(rows);
+    base.at.jacobian.conservativeResize(rows, Eigen::NoChange);
+    Eigen::Index row = values;
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      if (!coordinates[k].prior) continue;
+      base.at.residuals[row] =
+          (base.at.coordinates[k] - coordinates[k].prior->mean) / coordinates[k].prior->std_error;
+      base.at.jacobian.row(row).setZero();
+      base.at.jacobian(row, static_cast<Eigen::Index>(k)) = 1.0 / coordinates[k].prior->std_error;
+      ++row;
+    }
+  }
+
+  std::optional<std::string> cannot_have(const effects::Effect& effect) const {
+    if (study_.effects.has(effect)) return "the model has it already";
+    for (const datasets::SlumpTest& test : study_.slump_tests) {
+      if (auto reason = datasets::why_not(test.setup, effect)) return test.name + ": " + *reason;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<FitFailure> score_all() {
+    Effects effects;
+    for (const effects::Effect* effect : effects::catalogue()) {
+      if (effect->test != effects::TestKind::slump) continue;
+      if (auto reason = cannot_have(*effect)) {
+        found_.not_tried.emplace_back(effect, *reason);
+      } else {
+        effects.push_back(effect);
+      }
+    }
+    const SlumpCandidate& base = found_.base.candidate;
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      tell(0.3 + 0.2 * static_cast<double>(k) / static_cast<double>(effects.size()),
+           "what " + std::string(effects[k]->name) + " would do");
+      const SlumpCandidate with = slump_candidate(basis_, {effects[k]});
+      const auto residuals = with.problem->residuals(continued(with, base.at.coordinates, 1.0));
+      if (!residuals) {
+        if (residuals.error().interrupted) return interrupted();
+        found_.not_tried.emplace_back(
+            effects[k], "it could not be simulated at its typical strength: " + residuals.error().message);
+        continue;
+      }
+      SlumpSignature found{effects[k], *residuals - base.at.residuals, {}, 0.0};
+      found.signature = signature_of(effects[k], found.change, base);
+      const double length = freed(base.at.jacobian, found.change).norm();
+      if (length > 0.0) found.amplitude = found.signature.z / length;
+      found_.signatures.push_back(std::move(found));
+    }
+    std::vector<Signature> all;
+    for (const SlumpSignature& one : found_.signatures) all.push_back(one.signature);
+    null_.null_largest = largest_under_noise(all);
+    return std::nullopt;
+  }
+
+  [[nodiscard]] const SlumpSignature* signature(const effects::Effect* effect) const {
+    for (const SlumpSignature& one : found_.signatures) {
+      if (one.effect == effect) return &one;
+    }
+    return nullptr;
+  }
+
+  /// Columns for the shapes of added effects, by a difference each where the amplitudes are not zero.
+  std::optional<FitFailure> learn_shapes(SlumpCandidate& candidate) const {
+    const auto& coordinates = candidate.problem->parametrisation().coordinates();
+    for (std::size_t k = found_.base.candidate.at.coordinates.size(); k < coordinates.size(); ++k) {
+      if (coordinates[k].effect->index == 0) continue;
+      std::vector<double> x = candidate.at.coordinates;
+      const double move = x[k] + kShapeMove > coordinates[k].upper ? -kShapeMove : kShapeMove;
+      x[k] += move;
+      const auto residuals = candidate.problem->residuals(x);
+      if (!residuals) {
+        if (residuals.error().interrupted) return interrupted();
+        continue;  // the shape stays
+      }
+      candidate.at.jacobian.col(static_cast<Eigen::Index>(k)) = (*residuals - candidate.at.residuals) / move;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<FitFailure> try_set(const Effects& added) {
+    const SlumpCandidate& base = found_.base.candidate;
+    SlumpCandidate candidate = slump_candidate(basis_, added);
+    candidate.at.coordinates = continued(candidate, base.at.coordinates, 0.0);
+    candidate.at.residuals = base.at.residuals;
+    const auto& coordinates = candidate.problem->parametrisation().coordinates();
+    candidate.at.jacobian =
+        Eigen::MatrixXd::Zero(base.at.jacobian.rows(), static_cast<Eigen::Index>(coordinates.size()));
+    candidate.at.jacobian.leftCols(base.at.jacobian.cols()) = base.at.jacobian;
+    bool shapes = false;
+    for (std::size_t k = base.at.coordinates.size(); k < coordinates.size(); ++k) {
+      if (coordinates[k].effect->index == 0) {
+        candidate.at.jacobian.col(static_cast<Eigen::Index>(k)) =
+            signature(coordinates[k].effect->effect)->change;
+      } else {
+        shapes = true;
+      }
+    }
+    auto fit = calibration::minimise_by_secants(*candidate.problem, candidate.at, {kTrialEvaluations},
+                                                basis_.control);
+    if (fit.interrupted) return interrupted();
+    candidate.at = std::move(fit.at);
+    if (shapes) {
+      if (auto failure = learn_shapes(candidate)) return failure;
+      fit = calibration::minimise_by_secants(*candidate.problem, candidate.at, {kTrialEvaluations},
+                                             basis_.control);
+      if (fit.interrupted) return interrupted();
+      candidate.at = std::move(fit.at);
+    }
+    candidate.converged = fit.converged;
+    conclude(candidate);
+    SlumpTrial trial;
+    trial.candidate = std::move(candidate);
+    found_.trials.push_back(std::move(trial));
+    return std::nullopt;
+  }
+
+  std::optional<FitFailure> try_best() {
+    std::vector<const SlumpSignature*> sorted;
+    for (const SlumpSignature& one : found_.signatures) sorted.push_back(&one);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) {
+      return gain_of(a->signature) > gain_of(b->signature);
+    });
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+      if (k >= kSlumpRefitted) {
+        found_.not_tried.emplace_back(sorted[k]->effect, "others score higher");
+        continue;
+      }
+      if (gain_of(sorted[k]->signature) == 0.0) {
+        found_.not_tried.emplace_back(sorted[k]->effect, "it would have to act the other way round");
+        continue;
+      }
+      tell(0.5 + 0.3 * static_cast<double>(k) / static_cast<double>(kSlumpRefitted),
+           "fit with " + std::string(sorted[k]->effect->name));
+      if (auto failure = try_set({sorted[k]->effect})) return failure;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<FitFailure> try_pairs() {
+    Effects single;
+    for (const SlumpTrial& trial : found_.trials) {
+      if (single.size() < kSlumpPaired) single.push_back(trial.candidate.added.front());
+    }
+    for (std::size_t a = 0; a < single.size(); ++a) {
+      for (std::size_t b = a + 1; b < single.size(); ++b) {
+        tell(0.8, fmt::format("fit with {} and {}", single[a]->name, single[b]->name));
+        if (auto failure = try_set({single[a], single[b]})) return failure;
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool meets(const SlumpCandidate& candidate) const {
+    return std::all_of(candidate.gaps.begin(), candidate.gaps.end(), [](double gap) { return gap <= kMost; });
+  }
+
+  /// The scale of the residuals' variance, BIC by it, the base's rejection, and whether each trial is
+  /// adequate.
+  void weigh() {
+    const auto count = static_cast<double>(found_.base.candidate.problem->value_count());
+    const auto degrees = [&](const SlumpCandidate& candidate) {
+      return count - static_cast<double>(candidate.at.coordinates.size());
+    };
+    found_.scale = found_.base.candidate.chi_squared / degrees(found_.base.candidate);
+    for (const SlumpTrial& trial : found_.trials) {
+      found_.scale = std::min(found_.scale, trial.candidate.chi_squared / degrees(trial.candidate));
+    }
+    found_.scale = std::max(1.0, found_.scale);
+    const auto weigh_one = [&](SlumpCandidate& candidate) {
+      candidate.bic = candidate.chi_squared / found_.scale +
+                      static_cast<double>(candidate.at.coordinates.size()) * std::log(count);
+    };
+    weigh_one(found_.base.candidate);
+    for (SlumpTrial& trial : found_.trials) weigh_one(trial.candidate);
+    std::stable_sort(found_.trials.begin(), found_.trials.end(),
+                     [](const auto& a, const auto& b) { return a.candidate.bic < b.candidate.bic; });
+    prefer_fewer();
+    judge(found_.base);
+    found_.p_value = found_.base.adequacy.p_value;
+    found_.base.adequate = !rejected();
+    for (SlumpTrial& trial : found_.trials) judge(trial);
+  }
+
+  /// A pair stands first only where it is better by the margin than each of its effects alone.
+  void prefer_fewer() {
+    if (found_.trials.empty() || found_.trials.front().candidate.added.size() == 1) return;
+    const SlumpCandidate& pair = found_.trials.front().candidate;
+    const auto single = std::find_if(found_.trials.begin(), found_.trials.end(), [&](const auto& trial) {
+      return trial.candidate.added.size() == 1 && contains(pair.added, trial.candidate.added) &&
+             trial.candidate.bic < pair.bic + kMargin;
+    });
+    if (single != found_.trials.end()) std::rotate(found_.trials.begin(), single, single + 1);
+  }
+
+  /// Lowest BIC, the base's included, of what does not have all of the effects.
+  [[nodiscard]] double next_without(const SlumpCandidate& best) const {
+    double next = found_.base.candidate.bic;
+    for (const SlumpTrial& trial : found_.trials) {
+      if (!contains(trial.candidate.added, best.added)) next = std::min(next, trial.candidate.bic);
+    }
+    return next;
+  }
+
+  /// What fits with more effects gain over the trial, and how rarely noise would let them. Not what scores
+  /// promise: they are secants over a typical amplitude, which noise far below it may follow and no
+  /// amplitude.
+  void judge(SlumpTrial& trial) {
+    const SlumpCandidate& candidate = trial.candidate;
+    trial.adequacy.meets_noise = meets(candidate);
+    trial.adequacy.most = nullptr;
+    double most = 0.0;
+    for (const SlumpTrial& other : found_.trials) {
+      if (&other == &trial || !contains(other.candidate.added, candidate.added)) continue;
+      const double gain = (candidate.chi_squared - other.candidate.chi_squared) / found_.scale;
+      if (gain <= most) continue;
+      most = gain;
+      for (const effects::Effect* effect : other.candidate.added) {
+        if (!contains(candidate.added, {effect})) trial.adequacy.most = effect;
+      }
+    }
+    trial.adequacy.p_value = most > 0.0 ? null_.p_value(most) : 1.0;
+    trial.adequate = trial.adequacy.meets_noise && trial.adequacy.p_value >= kLeavesNothing;
+  }
+
+  [[nodiscard]] bool rejected() const {
+    return !found_.base.adequacy.meets_noise || found_.p_value < kRejects;
+  }
+  /// Simulations of all tests, held-out ones too, of the base and the best; where they disagree.
+  std::optional<FitFailure> compare() {
+    tell(0.9, "comparison of all tests");
+    if (auto failure = simulate_all(found_.base)) return failure;
+    found_.disagreement = slump_disagreement(found_.base.candidate.tests, found_.base.simulations);
+    found_.smoother = smoothed_outline_gap(found_.base.candidate.tests, found_.base.simulations);
+    for (SlumpTrial& trial : found_.trials) {
+      trial.gap = {trial.candidate.gap, std::nan("")};
+    }
+    if (found_.trials.empty()) return std::nullopt;
+    return simulate_all(found_.trials.front());
+  }
+
+  std::optional<FitFailure> simulate_all(SlumpTrial& trial) {
+    const SlumpCandidate& candidate = trial.candidate;
+    std::vector<tl::expected<mpm::SlumpResult, experiments::PredictionFailure>> runs(candidate.tests.size());
+    calibration::parallel_for(runs.size(), basis_.threads, [&](std::size_t i) {
+      const auto& test = *candidate.tests[i];
+      runs[i] = test.simulate(*candidate.parameters,
+                              candidate.problem->parametrisation().local_of(test, candidate.at.coordinates));
+    });
+    double squares = 0.0;
+    double count = 0.0;
+    trial.simulations.clear();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (!runs[i]) return FitFailure{runs[i].error().message, runs[i].error().interrupted};
+      const auto& test = *candidate.tests[i];
+      if (test.held_out()) {
+        for (const double r : test.decorrelated(test.distances(*runs[i]))) {
+          squares += r * r;
+          count += 1.0;
+        }
+      }
+      trial.simulations.push_back(std::move(*runs[i]));
+    }
+    trial.gap = {candidate.gap, count > 0.0 ? std::sqrt(squares / count) : std::nan("")};
+    return std::nullopt;
+  }
+
+  void decide() {
+    for (const SlumpTrial& trial : found_.trials) {
+      if (contains(trial.candidate.added, found_.trials.front().candidate.added)) continue;
+      found_.best_wrong = trial.gap.fitted;
+      break;
+    }
+    if (!rejected()) {
+      found_.verdict = Verdict::adequate;
+      return;
+    }
+    found_.verdict = Verdict::unknown;
+    if (found_.trials.empty()) return;
+    const SlumpCandidate& best = found_.trials.front().candidate;
+    const double lead = next_without(best) - best.bic;
+    const auto require = [this](bool holds, std::string text) {
+      found_.conditions.push_back({std::move(text), holds});
+      return holds;
+    };
+    bool good = require(
+        found_.trials.front().adequate,
+        fmt::format("with {} the model meets every test, and no further effect is called for (p = {:.3g})",
+                    name_of(best), found_.trials.front().adequacy.p_value));
+    good &= require(!best.at_bound, "its amplitude lies within its bounds and is not zero");
+    const bool leads = require(
+        lead >= kMargin, fmt::format("its BIC is lower than that of any explanation without it, the base "
+                                     "included, by {:.1f} ({} asked)",
+                                     lead, kMargin));
+    if (found_.base.candidate.gaps.size() > 1) {
+      const double gain =
+          left_out_density(best, found_.scale) - left_out_density(found_.base.candidate, found_.scale);
+      good &= require(
+          gain >= kPredictsNoWorse,
+          fmt::format("tests left out of the fit are predicted no worse with it (log density {:+.1f})",
+                      gain));
+    }
+    if (!good) return;
+    if (leads) {
+      found_.verdict = Verdict::named;
+      found_.chosen = 0;
+      return;
+    }
+    for (std::size_t k = 0; k < found_.trials.size(); ++k) {
+      const SlumpCandidate& other = found_.trials[k].candidate;
+      const bool more = other.added.size() > best.added.size();
+      if (!more && other.bic < best.bic + kMargin) found_.equivalent.push_back(k);
+    }
+    if (found_.equivalent.size() < 2) {
+      found_.equivalent.clear();
+      return;
+    }
+    found_.verdict = Verdict::ambiguous;
+    tell(0.95, "which test would decide");
+    found_.next = tell_slumps_apart(basis_, best, found_.trials[found_.equivalent[1]].candidate);
+  }
+
+  const datasets::Study& study_;
+  const SlumpDiscoverOptions& options_;
+  SlumpBasis basis_;
+  std::atomic<long> simulations_{0};
+  ScoreTest null_;  ///< how much noise lets the best of all effects gain
+  SlumpDiscovery found_;
+};
+
+}  // namespace
+
+MaterialKnowledge knowledge_of(const calibration::OedometerFit& fit) {
+  MaterialKnowledge knowledge{*fit.result.parameters, {}};
+  for (const calibration::ParameterEstimate& estimate : fit.result.estimates) {
+    if (estimate.verdict != calibration::Verdict::identified &&
+        estimate.verdict != calibration::Verdict::weak) {
+      continue;
+    }
+    if (!std::isfinite(estimate.std_error) || !(estimate.std_error > 0.0)) continue;
+    knowledge.priors[static_cast<std::size_t>(estimate.id)] =
+        datasets::Prior{estimate.value, estimate.std_error};
+  }
+  return knowledge;
+}
+
+tl::expected<SlumpDiscovery, FitFailure> discover_slump(const datasets::Study& study,
+                                                        const SlumpDiscoverOptions& options) {
+  return SlumpSearch(study, options).run();
+}
+
+}  // namespace isotach::discovery

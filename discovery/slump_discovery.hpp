@@ -1,0 +1,90 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+// Does the model suffice for a study's slump tests? If not: where does it fail, what is missing, how sure,
+// and what would decide?
+#pragma once
+
+#include "discovery/discover.hpp"
+#include "discovery/slump_candidate.hpp"
+
+namespace isotach::discovery {
+
+/// A part of a slump's outline, by the share of its length from the toe.
+enum class Zone { toe, flank, top };
+[[nodiscard]] std::string_view name_of(Zone zone);
+
+/// Where the base disagrees with the data: a zone of the outlines at one time.
+struct SlumpDisagreement {
+  std::string test;
+  bool held_out;
+  Zone zone;
+  bool lifting;  ///< the rim is still below the top of the mud
+  double from;   ///< s, the outline before
+  double to;     ///< s, the outline
+  double mean;   ///< m, of measured less simulated, outwards
+  double score;  ///< root of the sum of squares beyond that of noise, in units of noise
+};
+
+/// A set of effects that was tried.
+struct SlumpTrial {
+  SlumpCandidate candidate;
+  Adequacy adequacy;
+  Gap gap;
+  bool adequate = false;
+  std::vector<mpm::SlumpResult> simulations;  ///< of all tests, where they were asked for
+};
+
+/// A test that would tell two explanations apart.
+struct NextSlump {
+  std::string test;
+  std::string change;
+  double separation;  ///< of the predicted outlines, in units of their noise
+  double now;         ///< of the test as it was made
+};
+
+/// What an effect at its typical strength does to residuals, freed of what the base's parameters can do.
+struct SlumpSignature {
+  const effects::Effect* effect;
+  Eigen::VectorXd change;  ///< of residuals for the typical amplitude
+  Signature signature;
+  double amplitude = 0.0;  ///< that improves the fit most, by linearisation, in typical ones
+};
+
+struct SlumpDiscovery {
+  Verdict verdict = Verdict::adequate;
+  SlumpTrial base;
+  double p_value = 0.0;  ///< of the base's rejection
+  double scale = 1.0;    ///< of the residuals' variance, by the best candidate; at least 1
+  std::vector<SlumpSignature> signatures;
+  std::vector<SlumpTrial> trials;  ///< by BIC, the best first
+  std::vector<std::pair<const effects::Effect*, std::string>> not_tried;
+  std::optional<std::size_t> chosen;
+  std::vector<std::size_t> equivalent;
+  std::vector<Condition> conditions;
+  std::vector<SlumpDisagreement> disagreement;  ///< ranked
+  double best_wrong = 0.0;
+  double smoother = 0.0;
+  std::optional<NextSlump> next;
+  long simulations = 0;
+};
+
+/// What oedometer tests say of the material beforehand.
+struct MaterialKnowledge {
+  model::Parameters<double> parameters;
+  std::array<std::optional<datasets::Prior>, model::kParameterCount> priors;
+};
+/// That of a fit whose model meets its data: its answer, and the standard errors of what it determined.
+[[nodiscard]] MaterialKnowledge knowledge_of(const calibration::OedometerFit& fit);
+
+struct SlumpDiscoverOptions {
+  int threads = 1;
+  calibration::OptimiserControl control;
+  experiments::Simulate simulate;              ///< where empty, mpm::run_slump until control.stop
+  std::optional<MaterialKnowledge> knowledge;  ///< where absent, fits start from the study's material
+  std::function<void(double, const std::string&)> progress;
+};
+
+/// Fits the base to the slump tests that are not held out, then the effects that score best.
+[[nodiscard]] tl::expected<SlumpDiscovery, calibration::FitFailure> discover_slump(
+    const datasets::Study& study, const SlumpDiscoverOptions& options);
+
+}  // namespace isotach::discovery

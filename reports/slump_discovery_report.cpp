@@ -1,0 +1,359 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "reports/slump_discovery_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/limits.hpp"
+#include "reports/fit_sections.hpp"
+#include "reports/json_number.hpp"
+#include "reports/number.hpp"
+
+namespace isotach::reports {
+namespace {
+
+using discovery::SlumpCandidate;
+using discovery::SlumpDiscovery;
+using discovery::SlumpTrial;
+using nlohmann::ordered_json;
+
+constexpr double kMillimetre = 1e-3;
+constexpr std::size_t kPlacesShown = 12;
+constexpr std::size_t kOutlinesShown = 3;
+constexpr std::size_t kTestsShown = 2;
+
+std::string three(double value) {
+  return format_number(value, 3);
+}
+
+std::string described(const SlumpCandidate& candidate) {
+  std::string words;
+  for (const effects::Effect* effect : candidate.added) {
+    words += fmt::format("{}{} ({})", words.empty() ? "" : " and ", effect->name, effect->meaning);
+  }
+  return words;
+}
+
+/// Calls f(parameter, value in its file's unit) for each of the added effects' parameters.
+template <class F>
+void for_parameters(const SlumpCandidate& candidate, F&& f) {
+  for (const effects::Effect* effect : candidate.added) {
+    for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
+      const effects::ParameterRef parameter{effect, k};
+      f(parameter, candidate.effects[parameter] / effect->parameters[k].to_si);
+    }
+  }
+}
+
+std::string values_of(const SlumpCandidate& candidate) {
+  std::string words;
+  for_parameters(candidate, [&](const effects::ParameterRef& parameter, double value) {
+    words += fmt::format("{}{} = {}", words.empty() ? "" : ", ", parameter.info().name, three(value));
+  });
+  return words;
+}
+
+std::string rejection(double p_value) {
+  constexpr double kLeast = 1.5 / (discovery::kReplicates + 1.0);
+  return p_value < kLeast ? fmt::format("p < {}", three(1.0 / discovery::kReplicates))
+                          : "p = " + three(p_value);
+}
+
+std::string gap_words(const SlumpDiscovery& found) {
+  const SlumpTrial& after = found.trials.front();
+  std::string words = fmt::format("The gap of the outlines shrinks from {} to {} times their noise",
+                                  three(found.base.gap.fitted), three(after.gap.fitted));
+  if (std::isfinite(after.gap.held_out)) {
+    words += fmt::format(", on tests held out from {} to {}", three(found.base.gap.held_out),
+                         three(after.gap.held_out));
+  }
+  if (found.trials.size() > 1) {
+    words += fmt::format("; the next explanation reaches {}", three(found.best_wrong));
+  }
+  return words + fmt::format(", a curve drawn through the points {}.", three(found.smoother));
+}
+
+void add_verdict(Page& page, const SlumpDiscovery& found) {
+  using discovery::Verdict;
+  switch (found.verdict) {
+    case Verdict::adequate:
+      page.verdict(Tone::good,
+                   fmt::format("Slumps: the model suffices. Every test is met to within its noise and the "
+                               "error of the simulations, and no effect of the catalogue improves the fit "
+                               "more than they would ({}).",
+                               rejection(found.p_value)));
+      return;
+    case Verdict::named: {
+      const SlumpTrial& best = found.trials[*found.chosen];
+      page.verdict(Tone::warning, fmt::format("Slumps: the model lacks {}: the data are consistent with {}.",
+                                              described(best.candidate), values_of(best.candidate)));
+      page.verdict(Tone::good, gap_words(found));
+      return;
+    }
+    case Verdict::ambiguous: {
+      std::string names;
+      for (const std::size_t k : found.equivalent) {
+        names += (names.empty() ? "" : "; ") + name_of(found.trials[k].candidate);
+      }
+      page.verdict(
+          Tone::warning,
+          fmt::format("Slumps: the model lacks something that these tests cannot tell apart: {}.", names));
+      if (found.next) {
+        page.verdict(Tone::plain, fmt::format("{} {} would part the first two by {} standard deviations of "
+                                              "noise (as it was made: {}).",
+                                              found.next->test, found.next->change,
+                                              three(found.next->separation), three(found.next->now)));
+      }
+      return;
+    }
+    case Verdict::unknown:
+      page.verdict(Tone::bad,
+                   "Slumps: the model does not suffice, and no effect of the catalogue, nor two of them, can "
+                   "be named for it: see where it fails.");
+      if (!found.trials.empty()) page.verdict(Tone::plain, gap_words(found));
+      return;
+  }
+}
+
+Table place_table(const SlumpDiscovery& found) {
+  Table table{
+      .caption = "Where the base's outlines disagree, the worst first.",
+      .header = {"test", "zone", "mould", "from (s)", "to (s)", "measured further out by (mm)", "score"},
+      .alignment = {Alignment::left, Alignment::left, Alignment::left, Alignment::right, Alignment::right,
+                    Alignment::right, Alignment::right}};
+  table.notes.push_back(
+      "Zones by length from the toe: toe to a quarter, top beyond seven tenths. Score: root of the sum of "
+      "squared distances beyond what noise would give, in units of noise.");
+  for (std::size_t k = 0; k < std::min(kPlacesShown, found.disagreement.size()); ++k) {
+    const discovery::SlumpDisagreement& place = found.disagreement[k];
+    table.rows.push_back({place.test + (place.held_out ? ", held out" : ""), std::string(name_of(place.zone)),
+                          place.lifting ? "rising" : "gone", three(place.from), three(place.to),
+                          three(place.mean / kMillimetre), three(place.score)});
+  }
+  return table;
+}
+
+Table trial_table(const SlumpDiscovery& found) {
+  Table table{.caption = "Explanations of the outlines that were fitted, the best first.",
+              .header = {"effects", "parameters", "I_v", "C_1", "BIC above the best", "gap", "gap, held out",
+                         "leaves nothing"},
+              .alignment = {Alignment::left, Alignment::left, Alignment::right, Alignment::right,
+                            Alignment::right, Alignment::right, Alignment::right, Alignment::left}};
+  const double least = found.trials.empty() ? found.base.candidate.bic : found.trials.front().candidate.bic;
+  const auto row = [&](const SlumpTrial& trial) {
+    const SlumpCandidate& candidate = trial.candidate;
+    table.rows.push_back({name_of(candidate), values_of(candidate), three(candidate.parameters->I_v()),
+                          three(candidate.parameters->C_1()), three(candidate.bic - least),
+                          three(trial.gap.fitted),
+                          std::isfinite(trial.gap.held_out) ? three(trial.gap.held_out) : kMissing,
+                          trial.adequate ? "yes" : "no"});
+  };
+  for (const SlumpTrial& trial : found.trials) row(trial);
+  row(found.base);
+  table.notes.push_back(
+      "Gap: root mean square of distances between outlines, decorrelated, over their noise and the error of "
+      "the simulations; 1 is as good as these allow. Held-out tests were simulated for the base and the best "
+      "only. I_v and C_1 were fitted with each.");
+  return table;
+}
+
+Table signature_table(const SlumpDiscovery& found) {
+  Table table{.caption = "What each effect would do to the outlines, at its typical strength.",
+              .header = {"effect", "score", "absorbed by the base (%)", "strength called for (typical ones)"},
+              .alignment = {Alignment::left, Alignment::right, Alignment::right, Alignment::right}};
+  for (const discovery::SlumpSignature& one : found.signatures) {
+    table.rows.push_back({std::string(one.effect->name), three(one.signature.z),
+                          three(100.0 * one.signature.absorbed), three(one.amplitude)});
+  }
+  table.notes.push_back(
+      "Score: standard deviations by which the residuals lie along the effect's signature, once what the "
+      "base's parameters can do is taken from it; negative where the effect would have to act the other way "
+      "round.");
+  return table;
+}
+
+Table likeness_table(const SlumpDiscovery& found) {
+  Table table{.caption = "How alike the signatures are (cosines, with what the base can do taken away)."};
+  table.header.emplace_back("");
+  for (const auto& one : found.signatures) table.header.emplace_back(one.effect->name);
+  for (const auto& a : found.signatures) {
+    std::vector<std::string> row{std::string(a.effect->name)};
+    for (const auto& b : found.signatures) {
+      row.push_back(fmt::format("{:.2f}", a.signature.unit.dot(b.signature.unit)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Series line_of(const mpm::Outline& outline, std::string label, SeriesStyle style) {
+  Series series{.label = std::move(label), .style = style};
+  for (const mpm::OutlinePoint& point : outline.points) {
+    series.x.push_back(point.r / kMillimetre);
+    series.y.push_back(point.z / kMillimetre);
+  }
+  return series;
+}
+
+/// Outlines of a test at one time: measured, by the base, by the best explanation.
+Figure outline_figure(const SlumpDiscovery& found, std::size_t test, std::size_t outline) {
+  const experiments::SlumpExperiment& experiment = *found.base.candidate.tests[test];
+  const datasets::Outline& measured = experiment.test().outlines[outline];
+  Figure figure;
+  figure.caption = fmt::format("{} after {} s{}.", experiment.name(), three(measured.time),
+                               experiment.held_out() ? ", held out" : "");
+  figure.x = {.label = "r (mm)"};
+  figure.y = {.label = "z (mm)"};
+  figure.equal_aspect = true;
+  Series points{.label = "measured", .style = SeriesStyle::dots};
+  for (const datasets::OutlinePoint& point : measured.points) {
+    points.x.push_back(point.r / kMillimetre);
+    points.y.push_back(point.z / kMillimetre);
+  }
+  figure.series.push_back(std::move(points));
+  figure.series.push_back(line_of(found.base.simulations[test].outlines[outline], "base", SeriesStyle::line));
+  if (!found.trials.empty() && !found.trials.front().simulations.empty()) {
+    figure.series.push_back(line_of(found.trials.front().simulations[test].outlines[outline],
+                                    name_of(found.trials.front().candidate), SeriesStyle::line));
+  }
+  return figure;
+}
+
+/// The tests that the base misses most, at some times.
+void add_outlines(Page& page, const SlumpDiscovery& found) {
+  std::vector<std::string> shown;
+  for (const discovery::SlumpDisagreement& place : found.disagreement) {
+    if (shown.size() == kTestsShown) break;
+    if (std::find(shown.begin(), shown.end(), place.test) != shown.end()) continue;
+    shown.push_back(place.test);
+    const auto& tests = found.base.candidate.tests;
+    const auto at = std::find_if(tests.begin(), tests.end(),
+                                 [&](const auto& test) { return test->name() == place.test; });
+    const auto test = static_cast<std::size_t>(at - tests.begin());
+    const std::size_t outlines = (*at)->test().outlines.size();
+    std::vector<Figure> figures;
+    for (std::size_t k = 0; k < std::min(kOutlinesShown, outlines); ++k) {
+      figures.push_back(
+          outline_figure(found, test, k * (outlines - 1) / std::max<std::size_t>(1, kOutlinesShown - 1)));
+    }
+    page.figures(std::move(figures));
+  }
+}
+
+ordered_json names_of(const SlumpCandidate& candidate) {
+  ordered_json names = ordered_json::array();
+  for (const effects::Effect* effect : candidate.added) names.push_back(std::string(effect->name));
+  return names;
+}
+
+ordered_json parameters_of(const SlumpCandidate& candidate) {
+  ordered_json json = ordered_json::object();
+  for_parameters(candidate, [&](const effects::ParameterRef& parameter, double value) {
+    json[std::string(parameter.effect->name)][std::string(parameter.info().name)] = json_number(value);
+  });
+  return json;
+}
+
+ordered_json trial_json(const SlumpTrial& trial) {
+  const SlumpCandidate& candidate = trial.candidate;
+  return {{"effects", names_of(candidate)},
+          {"effect_parameters", parameters_of(candidate)},
+          {"I_v", json_number(candidate.parameters->I_v())},
+          {"C_1", json_number(candidate.parameters->C_1())},
+          {"bic", json_number(candidate.bic)},
+          {"chi_squared", json_number(candidate.chi_squared)},
+          {"gap", json_number(trial.gap.fitted)},
+          {"held_out_gap", json_number(trial.gap.held_out)},
+          {"adequate", trial.adequate}};
+}
+
+}  // namespace
+
+void add_slump_discovery(Page& page, const SlumpDiscovery& found) {
+  add_verdict(page, found);
+  page.section("Discovery: slump tests");
+  page.paragraph(fmt::format(
+      "The base was fitted to the tests that are not held out, {} simulations in all. It is rejected where a "
+      "test is missed by more than {} times its noise, or where noise would let some effect improve the fit "
+      "as "
+      "much in less than {} of cases; a name needs what the conditions below say. Tests held out take no "
+      "part "
+      "in any of it.",
+      found.simulations, calibration::kAdequate, discovery::kRejects));
+  page.table(place_table(found));
+  add_outlines(page, found);
+  page.table(trial_table(found));
+  if (!found.conditions.empty()) {
+    Table table{.caption = "Conditions of a name.", .header = {"condition", "holds"}};
+    for (const discovery::Condition& condition : found.conditions) {
+      table.rows.push_back({condition.text, condition.holds ? "yes" : "no"});
+    }
+    page.table(std::move(table));
+  }
+  page.table(signature_table(found));
+  page.table(likeness_table(found));
+  if (!found.not_tried.empty()) {
+    Table table{.caption = "Effects that were not fitted.", .header = {"effect", "why"}};
+    for (const auto& [effect, why] : found.not_tried) table.rows.push_back({std::string(effect->name), why});
+    page.table(std::move(table));
+  }
+}
+
+ordered_json discovery_json(const SlumpDiscovery& found) {
+  ordered_json json;
+  json["verdict"] = std::string(name_of(found.verdict));
+  const SlumpTrial* named = found.chosen ? &found.trials[*found.chosen] : nullptr;
+  json["effects"] = named != nullptr ? names_of(named->candidate) : ordered_json::array();
+  json["equivalent"] = ordered_json::array();
+  for (const std::size_t k : found.equivalent) {
+    json["equivalent"].push_back(names_of(found.trials[k].candidate));
+  }
+  json["effect_parameters"] = named != nullptr ? parameters_of(named->candidate) : ordered_json::object();
+  const discovery::Gap& before = found.base.gap;
+  const discovery::Gap& after = named != nullptr ? named->gap : before;
+  json["gap"] = {
+      {"before", json_number(before.fitted)},
+      {"after", json_number(after.fitted)},
+      {"held_out_before", json_number(before.held_out)},
+      {"held_out_after", json_number(after.held_out)},
+      {"best_wrong_after", found.trials.size() > 1 ? json_number(found.best_wrong) : ordered_json(nullptr)},
+      {"smoother_after", json_number(found.smoother)}};
+  json["p_value"] = json_number(found.p_value);
+  json["disagreement"] = ordered_json::array();
+  for (const discovery::SlumpDisagreement& place : found.disagreement) {
+    json["disagreement"].push_back({{"experiment", place.test},
+                                    {"held_out", place.held_out},
+                                    {"zone", std::string(name_of(place.zone))},
+                                    {"mould", place.lifting ? "rising" : "gone"},
+                                    {"from", json_number(place.from)},
+                                    {"to", json_number(place.to)},
+                                    {"mean_mm", json_number(place.mean / kMillimetre)},
+                                    {"score", json_number(place.score)}});
+  }
+  json["conditions"] = ordered_json::array();
+  for (const discovery::Condition& condition : found.conditions) {
+    json["conditions"].push_back({{"condition", condition.text}, {"holds", condition.holds}});
+  }
+  json["base"] = trial_json(found.base);
+  json["trials"] = ordered_json::array();
+  for (const SlumpTrial& trial : found.trials) json["trials"].push_back(trial_json(trial));
+  json["scores"] = ordered_json::array();
+  for (const discovery::SlumpSignature& one : found.signatures) {
+    json["scores"].push_back({{"effect", std::string(one.effect->name)},
+                              {"score", json_number(one.signature.z)},
+                              {"absorbed", json_number(one.signature.absorbed)}});
+  }
+  json["next_test"] = nullptr;
+  if (found.next) {
+    json["next_test"] = {{"test", found.next->test},
+                         {"change", found.next->change},
+                         {"separation", json_number(found.next->separation)},
+                         {"separation_now", json_number(found.next->now)}};
+  }
+  json["simulations"] = found.simulations;
+  return json;
+}
+
+}  // namespace isotach::reports
