@@ -66,7 +66,9 @@ std::string_view name_of(Zone zone) {
 std::vector<SlumpDisagreement> slump_disagreement(const SlumpTests& tests,
                                                   const std::vector<mpm::SlumpResult>& simulations) {
   std::vector<SlumpDisagreement> all;
-  for (std::size_t i = 0; i < tests.size(); ++i) add_test(*tests[i], simulations[i], all);
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    if (!simulations[i].outlines.empty()) add_test(*tests[i], simulations[i], all);
+  }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
   return all;
 }

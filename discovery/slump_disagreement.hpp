@@ -8,7 +8,8 @@
 
 namespace isotach::discovery {
 
-/// By test, zone and time, ranked; `simulations` are of all `tests`.
+/// By test, zone and time, ranked; `simulations` are of all `tests`, without outlines where a test has
+/// none.
 [[nodiscard]] std::vector<SlumpDisagreement> slump_disagreement(
     const SlumpTests& tests, const std::vector<mpm::SlumpResult>& simulations);
 

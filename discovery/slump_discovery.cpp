@@ -398,8 +398,15 @@ class SlumpSearch {
     double count = 0.0;
     trial.simulations.clear();
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      if (!runs[i]) return FitFailure{runs[i].error().message, runs[i].error().interrupted};
       const auto& test = *candidate.tests[i];
+      if (!runs[i]) {
+        if (runs[i].error().interrupted || !test.held_out()) {
+          return FitFailure{runs[i].error().message, runs[i].error().interrupted};
+        }
+        found_.warnings.push_back("held out and not compared: " + runs[i].error().message);
+        trial.simulations.emplace_back();
+        continue;
+      }
       if (test.held_out()) {
         for (const double r : test.decorrelated(test.distances(*runs[i]))) {
           squares += r * r;

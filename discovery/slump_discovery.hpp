@@ -65,6 +65,7 @@ struct SlumpDiscovery {
   double smoother = 0.0;
   std::optional<NextSlump> next;
   long simulations = 0;
+  std::vector<std::string> warnings;
 };
 
 /// What oedometer tests say of the material beforehand.

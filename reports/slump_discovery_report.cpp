@@ -214,7 +214,7 @@ Figure outline_figure(const SlumpDiscovery& found, std::size_t test, std::size_t
   }
   figure.series.push_back(std::move(points));
   figure.series.push_back(line_of(found.base.simulations[test].outlines[outline], "base", SeriesStyle::line));
-  if (!found.trials.empty() && !found.trials.front().simulations.empty()) {
+  if (!found.trials.empty() && !found.trials.front().simulations[test].outlines.empty()) {
     figure.series.push_back(line_of(found.trials.front().simulations[test].outlines[outline],
                                     name_of(found.trials.front().candidate), SeriesStyle::line));
   }
@@ -273,6 +273,7 @@ ordered_json trial_json(const SlumpTrial& trial) {
 
 void add_slump_discovery(Page& page, const SlumpDiscovery& found) {
   add_verdict(page, found);
+  for (const std::string& warning : found.warnings) page.verdict(Tone::bad, "Slumps: " + warning + ".");
   page.section("Discovery: slump tests");
   page.paragraph(fmt::format(
       "The base was fitted to the tests that are not held out, {} simulations in all. It is rejected where a "
@@ -353,6 +354,7 @@ ordered_json discovery_json(const SlumpDiscovery& found) {
                          {"separation_now", json_number(found.next->now)}};
   }
   json["simulations"] = found.simulations;
+  json["warnings"] = found.warnings;
   return json;
 }
 

@@ -67,7 +67,9 @@ TEST_F(DiscoverCommand, RefusesAStudyWithoutOedometerTests) {
         "phi_c_deg = 15\nC_1 = 0.05\n");
   expect_refused({"discover", "study.toml"}, {"study.toml"});
   expect_refused({"discover", "none.toml"}, {"none.toml"});
-  expect_refused({"discover", "study.toml", "--only", "slumps"}, {"--only"});
+  const Ended ended = run({"discover", "study.toml", "--only", "slumps"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_NE(ended.err.find("--only: slumps not in {oedometer,slump}"), std::string::npos) << ended.err;
 }
 
 }  // namespace

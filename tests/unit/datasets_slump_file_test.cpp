@@ -59,7 +59,8 @@ TEST_F(SlumpFileTest, MistakesAreNamed) {
   refused("times_s = [1, 2.5]", "", {"slump.toml:16: key times_s in [output]: it is missing"});
   refused("[output]", "[outputs]", {"slump.toml:16: key outputs: it is unknown"});
   refused("[output]\ntimes_s = [1, 2.5]\n", "", {"table [output]: it is missing"});
-  refused("[mud]", "[effects]\nlift_delay = { delay_s = 1 }\n[mud]", {"slump.toml:9: table [effects]"});
+  refused("[mud]", "[effects]\nlift_delay = { delay_s = -1 }\n[mud]", {"delay_s", "-1", "accepted: "});
+  refused("[mud]", "[effects]\nlift = { delay_s = 1 }\n[mud]", {"lift", "it is unknown"});
   refused("diameter_mm = 78", "diameter_mm = 7.8",
           {"cell_size_mm", "4 is out of range (its default)", "3.9"});
 }

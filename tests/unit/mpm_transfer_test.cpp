@@ -66,7 +66,9 @@ Particles random_points(std::size_t n, unsigned seed) {
     q.solid_volume[i] = i < n ? 1e-7 * (2.0 + q.solid_volume[i]) : 0.0;
     q.void_ratio[i] += 3.0;
     q.reference_pressure[i] *= 1000.0;
-    for (auto& component : q.stress) component[i] *= 500.0;
+    for (auto* tensor : {&q.stress, &q.resistance, &q.capillary}) {
+      for (auto& component : *tensor) component[i] *= 500.0;
+    }
   }
   return q;
 }
@@ -114,10 +116,12 @@ std::vector<Octet> pushed(const Particles& q, const Grid& g, const std::vector<d
         mean != nullptr ? corner_average(*mean, g, q.r[n], q.z[n]) : q.reference_pressure[n];
     const double d_tt = hoop<S>(q, n);
     const double rate = (q.l_rr[n] + q.l_zz[n] + d_tt) / 3.0;
-    const double t_rr = q.stress[0][n] - mean_stress - pressure + kTwoEta * (q.l_rr[n] - rate);
-    const double t_zz = q.stress[1][n] - mean_stress - pressure + kTwoEta * (q.l_zz[n] - rate);
-    const double t_tt = q.stress[2][n] - mean_stress - pressure + kTwoEta * (d_tt - rate);
-    const double t_rz = q.stress[3][n] / std::sqrt(2.0) + kTwoEta * 0.5 * (q.l_rz[n] + q.l_zr[n]);
+    const auto beside = [&](std::size_t k) { return q.resistance[k][n] + q.capillary[k][n]; };
+    const double t_rr = q.stress[0][n] - mean_stress - pressure + kTwoEta * (q.l_rr[n] - rate) + beside(0);
+    const double t_zz = q.stress[1][n] - mean_stress - pressure + kTwoEta * (q.l_zz[n] - rate) + beside(1);
+    const double t_tt = q.stress[2][n] - mean_stress - pressure + kTwoEta * (d_tt - rate) + beside(2);
+    const double t_rz =
+        (q.stress[3][n] + beside(3)) / std::sqrt(2.0) + kTwoEta * 0.5 * (q.l_rz[n] + q.l_zr[n]);
     const double volume = q.volume(n);
     for (std::size_t j = 0; j < kRows + 2; ++j) {
       for (std::size_t i = 0; i < kColumns + 2; ++i) {
