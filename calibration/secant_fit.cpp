@@ -94,6 +94,7 @@ SecantFit minimise_by_secants(const Problem& problem, const SecantPoint& start, 
       fit.last_failure = residuals.error().message;
       if (fit.interrupted) break;
     } else {
+      if (options.map) *residuals = options.map(std::move(*residuals));
       correct(fit.at, step, *residuals);
       if (cost_of(*residuals) < fit.at.cost()) {
         fit.at.coordinates = std::move(x);

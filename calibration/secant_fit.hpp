@@ -2,6 +2,8 @@
 // Gauss-Newton with secants for derivatives: few evaluations, where each is a set of simulations.
 #pragma once
 
+#include <functional>
+
 #include "calibration/optimisers.hpp"
 
 namespace isotach::calibration {
@@ -15,9 +17,13 @@ struct SecantPoint {
   [[nodiscard]] double cost() const { return cost_of(residuals); }
 };
 
+/// What is made of a problem's residuals before they are squared; empty: nothing.
+using ResidualMap = std::function<Eigen::VectorXd(Eigen::VectorXd)>;
+
 struct SecantOptions {
   int max_evaluations = 8;
   double cost_tolerance = 0.5;  ///< a step that promises no more ends the search
+  ResidualMap map{};            ///< that SecantPoint::residuals have gone through
 };
 
 struct SecantFit {

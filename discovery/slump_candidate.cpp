@@ -64,7 +64,7 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> rows_of(const calibration::Pr
   return rows;
 }
 
-void conclude(SlumpCandidate& candidate) {
+void conclude(SlumpCandidate& candidate, const Eigen::VectorXd& as_read) {
   const calibration::Problem& problem = *candidate.problem;
   const std::vector<double>& x = candidate.at.coordinates;
   candidate.parameters = *problem.parametrisation().at(x);
@@ -92,7 +92,7 @@ void conclude(SlumpCandidate& candidate) {
   candidate.gaps.clear();
   double squares = 0.0;
   for (const auto& [first, count] : rows_of(problem)) {
-    const double sum = candidate.at.residuals.segment(first, count).squaredNorm();
+    const double sum = as_read.segment(first, count).squaredNorm();
     candidate.gaps.push_back(std::sqrt(sum / static_cast<double>(count)));
     squares += sum;
   }

@@ -31,7 +31,7 @@ struct SlumpCandidate {
   std::vector<const effects::Effect*> added;
   SlumpTests tests;  ///< all of the study, with these effects
   std::shared_ptr<const calibration::Problem> problem;
-  calibration::SecantPoint at;
+  calibration::SecantPoint at;      ///< residuals freed of the error that all tests share (common_error.hpp)
   effects::Values<double> effects;  ///< all that are on, at the answer
   std::optional<model::Parameters<double>> parameters;
   double chi_squared = 0.0;  ///< priors included
@@ -55,8 +55,8 @@ struct SlumpCandidate {
 [[nodiscard]] std::vector<double> continued(const SlumpCandidate& candidate, const std::vector<double>& base,
                                             double amplitude);
 
-/// Fills in what follows from `at`.
-void conclude(SlumpCandidate& candidate);
+/// Fills in what follows from `at`; `gaps` are of `as_read`, its residuals as the problem has them.
+void conclude(SlumpCandidate& candidate, const Eigen::VectorXd& as_read);
 
 /// Rows of residuals that belong to each fitted test: first and count.
 [[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> rows_of(const calibration::Problem& problem);

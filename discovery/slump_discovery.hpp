@@ -3,6 +3,8 @@
 // and what would decide?
 #pragma once
 
+#include <limits>
+
 #include "discovery/discover.hpp"
 #include "discovery/slump_candidate.hpp"
 
@@ -52,8 +54,9 @@ struct SlumpSignature {
 struct SlumpDiscovery {
   Verdict verdict = Verdict::adequate;
   SlumpTrial base;
-  double p_value = 0.0;  ///< of the base's rejection
-  double scale = 1.0;    ///< of the residuals' variance, by the best candidate; at least 1
+  /// That noise lets some effect gain as much as those that were fitted; NaN where none was.
+  double p_value = std::numeric_limits<double>::quiet_NaN();
+  double scale = 1.0;  ///< of the residuals' variance, by the best candidate; at least 1
   std::vector<SlumpSignature> signatures;
   std::vector<SlumpTrial> trials;  ///< by BIC, the best first
   std::vector<std::pair<const effects::Effect*, std::string>> not_tried;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/limits.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/json_number.hpp"
 #include "reports/number.hpp"
@@ -55,12 +54,6 @@ std::string values_of(const SlumpCandidate& candidate) {
   return words;
 }
 
-std::string rejection(double p_value) {
-  constexpr double kLeast = 1.5 / (discovery::kReplicates + 1.0);
-  return p_value < kLeast ? fmt::format("p < {}", three(1.0 / discovery::kReplicates))
-                          : "p = " + three(p_value);
-}
-
 std::string gap_words(const SlumpDiscovery& found) {
   const SlumpTrial& after = found.trials.front();
   std::string words = fmt::format("The gap of the outlines shrinks from {} to {} times their noise",
@@ -80,10 +73,8 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
   switch (found.verdict) {
     case Verdict::adequate:
       page.verdict(Tone::good,
-                   fmt::format("Slumps: the model suffices. Every test is met to within its noise and the "
-                               "error of the simulations, and no effect of the catalogue improves the fit "
-                               "more than they would ({}).",
-                               rejection(found.p_value)));
+                   "Slumps: the model suffices. Every test is met to within its noise and the error of the "
+                   "simulations; finer cells may tell more.");
       return;
     case Verdict::named: {
       const SlumpTrial& best = found.trials[*found.chosen];
@@ -277,12 +268,9 @@ void add_slump_discovery(Page& page, const SlumpDiscovery& found) {
   page.section("Discovery: slump tests");
   page.paragraph(fmt::format(
       "The base was fitted to the tests that are not held out, {} simulations in all. It is rejected where a "
-      "test is missed by more than {} times its noise, or where noise would let some effect improve the fit "
-      "as "
-      "much in less than {} of cases; a name needs what the conditions below say. Tests held out take no "
-      "part "
-      "in any of it.",
-      found.simulations, calibration::kAdequate, discovery::kRejects));
+      "test is missed by more than {} times its noise, the error of the simulations included; then effects "
+      "are fitted, and a name needs what the conditions below say. Tests held out take no part in any of it.",
+      found.simulations, calibration::kAdequate));
   page.table(place_table(found));
   add_outlines(page, found);
   page.table(trial_table(found));
