@@ -1,0 +1,132 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "bench/discovery/run_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "bench/discovery/made_study.hpp"
+#include "calibration/distributions.hpp"
+#include "discovery/discover.hpp"
+
+namespace isotach::bench {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> names_of(const discovery::Candidate& candidate) {
+  std::vector<std::string> names;
+  for (const effects::Effect* effect : candidate.added) names.emplace_back(effect->name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Whether, of the fitted stages where discovery finds the base to disagree, the first is the one where what
+/// the base cannot take up of the hidden is largest.
+std::optional<bool> place_is_right(const MadeStudy& made, const discovery::Discovery& found) {
+  double largest = -1.0;
+  std::optional<bool> first;
+  bool right = false;
+  for (const discovery::Disagreement& place : found.disagreement) {
+    if (place.held_out) continue;
+    double sum = 0.0;
+    std::size_t fitted = 0;
+    for (const datasets::OedometerTest& test : made.study.oedometer_tests) {
+      if (test.hold_out) continue;
+      const Eigen::VectorXd& left = made.left.plain[fitted++];
+      if (test.name != place.test) continue;
+      for (Eigen::Index i = 0; i < left.size(); ++i) {
+        const double time = test.record.rows[static_cast<std::size_t>(i)].time;
+        if (time >= place.stage.from_time && time <= place.stage.to_time) sum += left[i] * left[i];
+      }
+    }
+    const bool is_first = !first;
+    first = true;
+    if (sum > largest) {
+      largest = sum;
+      right = is_first;
+    }
+  }
+  return first ? std::optional(right) : std::nullopt;
+}
+
+void note_amplitude(const discovery::Candidate& named, const effects::Effect& hidden, Record& record) {
+  for (const calibration::LocalEstimate& estimate : named.fit.result.local_estimates) {
+    if (!estimate.effect || estimate.effect->effect != &hidden || estimate.effect->index != 0) continue;
+    const double half =
+        estimate.std_error * calibration::student_t_quantile(0.95, named.fit.result.uncertainty.degrees);
+    record.amplitude = estimate.value;
+    record.lower = estimate.value - half;
+    record.upper = estimate.value + half;
+  }
+}
+
+void note_answer(const Case& one, const MadeStudy& made, const discovery::Discovery& found, Record& record) {
+  record.verdict = name_of(found.verdict);
+  record.p_value = found.p_value;
+  record.gap_before = found.base.gap.fitted;
+  record.held_out_before = found.base.gap.held_out;
+  if (!found.trials.empty()) record.first = names_of(found.trials.front().candidate);
+  for (const std::size_t k : found.equivalent) {
+    record.equivalent.push_back(names_of(found.trials[k].candidate));
+  }
+  for (const discovery::Condition& condition : found.conditions) {
+    if (!condition.holds) record.refused.push_back(condition.text);
+  }
+  if (one.kind != Kind::null) record.place = place_is_right(made, found);
+  if (!found.chosen) return;
+  const discovery::Trial& named = found.trials[*found.chosen];
+  record.named = names_of(named.candidate);
+  record.gap_after = named.gap.fitted;
+  record.held_out_after = named.gap.held_out;
+  if (one.kind == Kind::effect && record.named == record.hidden) {
+    note_amplitude(named.candidate, *one.effects.front(), record);
+  }
+}
+
+}  // namespace
+
+Record run_case(const Case& one, std::uint64_t seed) {
+  Record record;
+  record.number = one.number;
+  record.seed = seed;
+  record.kind = name_of(one.kind);
+  for (const effects::Effect* effect : one.effects) record.hidden.emplace_back(effect->name);
+  if (one.outside) record.hidden.emplace_back(info_of(*one.outside).name);
+  std::sort(record.hidden.begin(), record.hidden.end());
+  record.programme = name_of(one.programme);
+  record.noise = one.noise;
+  record.wanted = one.visibility;
+  record.gap_after = record.held_out_after = record.amplitude = record.lower = record.upper = kNone;
+
+  const auto made = make_study(one, seed);
+  if (!made) {
+    record.state = "failed";
+    record.why = "making: " + made.error();
+    return record;
+  }
+  record.visibility = made->visibility;
+  record.beside = made->beside_another;
+  for (const auto& effect : made->hidden.effects) record.true_amplitudes.push_back(effect.si[0]);
+  if (made->hidden.outside) record.true_amplitudes.push_back(made->hidden.outside->amplitude);
+  if (!made->reached) {
+    record.state = "out of reach";
+    return record;
+  }
+  discovery::DiscoverOptions options;
+  if (one.kind == Kind::deleted) options.without = one.effects;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto found = discovery::discover_oedometer(made->study, options);
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  record.state = found ? "done" : "failed";
+  if (found) {
+    note_answer(one, *made, *found, record);
+  } else {
+    record.why = found.error().message;
+  }
+  return record;
+}
+
+}  // namespace isotach::bench
