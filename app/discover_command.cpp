@@ -9,7 +9,7 @@
 #include "app/discover_study.hpp"
 #include "app/fit_journal.hpp"
 #include "app/interrupt.hpp"
-#include "datasets/input_error.hpp"
+#include "app/study_command.hpp"
 #include "datasets/study.hpp"
 #include "reports/curves_csv.hpp"
 #include "reports/parameters_toml.hpp"
@@ -27,9 +27,7 @@ int discover(const CommonOptions& options, const JournalLine& journal_line, Test
   if (!slumps && (tests == TestsLookedAt::slump || !fits_any(study.oedometer_tests))) {
     constexpr std::array<std::string_view, 3> kSubjects{"[[oedometer]] and [[slump]]", "[[oedometer]]",
                                                         "[[slump]]"};
-    throw datasets::InputError(datasets::FilePlace{study.file},
-                               std::string(kSubjects[static_cast<std::size_t>(tests)]),
-                               "none that is not held out", "at least one test to fit");
+    refuse_without(study, std::string(kSubjects[static_cast<std::size_t>(tests)]));
   }
   reports::OutputDirectory output(options.out);
   FitJournal journal(slumps ? journal_line : JournalLine{{}, true}, options, study);
@@ -37,21 +35,12 @@ int discover(const CommonOptions& options, const JournalLine& journal_line, Test
   const auto found = discover_study(
       study, {options.threads, journal.at_once(options.threads), journal.simulate(),
               [&](double fraction, const std::string& what) { progress.update(fraction, what); }, tests});
-  reports::RunInfo info = run.info();
-  info.warnings = journal.warnings();
-  if (!found) {
-    if (found.error().interrupted) journal.tell_rest(options.quiet);
-    return end_failed(output, reports::failure_json(info, found.error()), found.error().message,
-                      found.error().interrupted);
-  }
+  const reports::RunInfo info = info_of(run, journal);
+  if (!found) return failed(output, info, found.error(), journal, options.quiet);
   progress.finish();
   output.write_text("report.html", reports::discovery_report(info, study, *found).html());
   output.write_text("parameters.toml", reports::parameters_toml(info, *found));
-  if (found->oedometer) {
-    const discovery::Discovery& oedometer = *found->oedometer;
-    reports::write_curves(output, oedometer.chosen ? oedometer.trials[*oedometer.chosen].candidate.fit
-                                                   : oedometer.base.candidate.fit);
-  }
+  if (found->oedometer) reports::write_curves(output, found->oedometer->answer().candidate.fit);
   output.write_json("result.json", reports::result_json(info, study, *found));
   return end_done(output, options.quiet);
 }

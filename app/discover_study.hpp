@@ -2,21 +2,13 @@
 // Discovery in all tests of a study: the oedometer's first, which tell the slumps what the material is.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "experiments/slump_experiment.hpp"
 #include "reports/discovery_report.hpp"
 
 namespace isotach::app {
-
-/// Whether a fit would use any of the tests.
-template <class Test>
-[[nodiscard]] bool fits_any(const std::vector<Test>& tests) {
-  return std::any_of(tests.begin(), tests.end(), [](const Test& test) { return !test.hold_out; });
-}
 
 /// Which tests are looked at.
 enum class TestsLookedAt { all, oedometer, slump };

@@ -9,6 +9,7 @@
 #include "app/discover_study.hpp"
 #include "app/fit_journal.hpp"
 #include "app/interrupt.hpp"
+#include "app/study_command.hpp"
 #include "calibration/calibrate.hpp"
 #include "datasets/input_error.hpp"
 #include "datasets/study.hpp"
@@ -25,15 +26,6 @@
 namespace isotach::app {
 
 namespace {
-
-template <class Tests>
-void require_fitted(const datasets::Study& study, const Tests& tests, const char* kind) {
-  for (const auto& test : tests) {
-    if (!test.hold_out) return;
-  }
-  throw datasets::InputError(datasets::FilePlace{study.file}, kind, "none that is not held out",
-                             "at least one test to fit");
-}
 
 void require_parameters(const datasets::Study& study, const std::vector<model::ParameterId>& list,
                         const char* key) {
@@ -63,25 +55,6 @@ int publish(reports::OutputDirectory& output, const CommonOptions& options, cons
   reports::write_curves(output, fit);
   output.write_json("result.json", reports::result_json(info, study, fit));
   return end_done(output, options.quiet);
-}
-
-int failed(reports::OutputDirectory& output, const reports::RunInfo& info,
-           const calibration::FitFailure& failure) {
-  return end_failed(output, reports::failure_json(info, failure), failure.message, failure.interrupted);
-}
-
-/// The same of a fit that kept a journal.
-int failed(reports::OutputDirectory& output, const reports::RunInfo& info,
-           const calibration::FitFailure& failure, const FitJournal& journal, bool quiet) {
-  if (failure.interrupted) journal.tell_rest(quiet);
-  return failed(output, info, failure);
-}
-
-/// The head of a result, with what the journal has to say.
-reports::RunInfo info_of(const Run& run, const FitJournal& journal) {
-  reports::RunInfo info = run.info();
-  info.warnings = journal.warnings();
-  return info;
 }
 
 int fit_oedometer(const CommonOptions& options) {

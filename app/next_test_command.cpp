@@ -6,6 +6,7 @@
 #include "app/command.hpp"
 #include "app/fit_journal.hpp"
 #include "app/interrupt.hpp"
+#include "app/study_command.hpp"
 #include "calibration/next_test.hpp"
 #include "datasets/candidates.hpp"
 #include "reports/next_test_report.hpp"
@@ -38,13 +39,8 @@ int next_test(const CommonOptions& options, const NextTestLine& line) {
   next_options.stop = &interrupted();
   next_options.progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); };
   const auto next = calibration::rate_candidates(study, candidates, next_options);
-  reports::RunInfo info = run.info();
-  info.warnings = journal.warnings();
-  if (!next) {
-    if (next.error().interrupted) journal.tell_rest(options.quiet);
-    return end_failed(output, reports::failure_json(info, next.error()), next.error().message,
-                      next.error().interrupted);
-  }
+  const reports::RunInfo info = info_of(run, journal);
+  if (!next) return failed(output, info, next.error(), journal, options.quiet);
   progress.finish();
   output.write_text("report.html", reports::next_test_report(info, study, *next).html());
   if (line.candidates.empty()) output.write_text("candidates.toml", datasets::default_candidates());

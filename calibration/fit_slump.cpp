@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -72,20 +71,11 @@ SlumpExperiments make_experiments(const datasets::Study& study, const effects::V
   return all;
 }
 
-/// The study's effects with those that were free as x has them.
-effects::Values<double> effects_at(const Problem& problem, const std::vector<double>& x,
-                                   effects::Values<double> effects) {
-  const auto& coordinates = problem.parametrisation().coordinates();
-  for (std::size_t k = 0; k < coordinates.size(); ++k) {
-    if (!coordinates[k].effect) continue;
-    const std::array parameters{*coordinates[k].effect};
-    const std::array values{coordinates[k].quantity(x[k])};
-    if (auto moved = effects.with(std::span<const effects::ParameterRef>(parameters),
-                                  std::span<const double>(values))) {
-      effects = std::move(*moved);
-    }
-  }
-  return effects;
+/// The tests' effects, free ones as x has them.
+effects::Values<double> effects_at(const SlumpExperiments& tests, const Problem& problem,
+                                   const std::vector<double>& x) {
+  const experiments::SlumpExperiment& any = *tests.front();  // all tests share them
+  return any.effects_at(problem.parametrisation().local_of(any, x)).value();
 }
 
 double rms_where(const experiments::Values& values, const std::vector<bool>& chosen) {
@@ -250,7 +240,7 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
     return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
   }
   found.parameters = *parametrisation.at(search.coordinates);
-  found.effects = effects_at(problem, search.coordinates, study.effects);
+  found.effects = effects_at(all, problem, search.coordinates);
   found.search = std::move(search);
   found.runs = tally->counts();
   if (!found.search.converged) {
@@ -388,7 +378,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   if (fit.map) heed_profiles(problem, *fit.map, result);
 
   tell(options, SlumpFitStage::comparison);
-  fit.effects = effects_at(problem, answer, found.effects);
+  fit.effects = effects_at(all, problem, answer);
   auto comparisons = compare_all(all, problem, answer, *result.parameters, options.threads);
   if (!comparisons) return tl::unexpected(comparisons.error());
   fit.comparisons = std::move(*comparisons);

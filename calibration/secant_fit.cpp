@@ -28,8 +28,8 @@ void correct(SecantPoint& at, const Eigen::VectorXd& step, const Eigen::VectorXd
   at.jacobian += (residuals - at.residuals - at.jacobian * step) * (weighed / length).transpose();
 }
 
-}  // namespace
-
+/// The step from a point to the least of |r + J dx| with the coordinates within their bounds and no further
+/// than `longest` (of each; logarithms and numbers of typical values) from where they are.
 Eigen::VectorXd bounded_step(const Problem& problem, const SecantPoint& at, double longest) {
   const auto& coordinates = problem.parametrisation().coordinates();
   const auto n = static_cast<Eigen::Index>(coordinates.size());
@@ -67,6 +67,8 @@ Eigen::VectorXd bounded_step(const Problem& problem, const SecantPoint& at, doub
   return step;
 }
 
+}  // namespace
+
 SecantFit minimise_by_secants(const Problem& problem, const SecantPoint& start, const SecantOptions& options,
                               const OptimiserControl& control) {
   SecantFit fit;
@@ -91,7 +93,6 @@ SecantFit minimise_by_secants(const Problem& problem, const SecantPoint& start, 
     if (control.callback) control.callback(fit.evaluations, fit.at.cost());
     if (!residuals) {
       fit.interrupted = residuals.error().interrupted;
-      fit.last_failure = residuals.error().message;
       if (fit.interrupted) break;
     } else {
       if (options.map) *residuals = options.map(std::move(*residuals));

@@ -31,7 +31,6 @@ struct SecantFit {
   int evaluations = 0;
   bool converged = false;
   bool interrupted = false;
-  std::string last_failure;  ///< of evaluations that could not be made
 };
 
 /// From `start`, whose Jacobian may be of differences as wide as the search: steps to the least of the linear
@@ -39,9 +38,5 @@ struct SecantFit {
 /// steps that lead up or fail are shortened.
 [[nodiscard]] SecantFit minimise_by_secants(const Problem& problem, const SecantPoint& start,
                                             const SecantOptions& options, const OptimiserControl& control);
-
-/// The step from a point to the least of |r + J dx| with the coordinates within their bounds and no further
-/// than `longest` (of each; logarithms and numbers of typical values) from where they are.
-[[nodiscard]] Eigen::VectorXd bounded_step(const Problem& problem, const SecantPoint& at, double longest);
 
 }  // namespace isotach::calibration

@@ -182,6 +182,28 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
   return result;
 }
 
+Eigen::VectorXd stacked_change(const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
+                               const std::vector<std::optional<mpm::SlumpResult>>& from,
+                               const std::vector<std::optional<mpm::SlumpResult>>& to) {
+  std::size_t rows = 0;
+  for (const auto& test : tests) rows += test->measured().size();
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
+  Eigen::Index row = 0;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const auto count = static_cast<Eigen::Index>(tests[t]->measured().size());
+    if (from[t] && to[t]) {
+      const experiments::Values there = tests[t]->decorrelated(tests[t]->distances(*to[t]));
+      const experiments::Values here = tests[t]->decorrelated(tests[t]->distances(*from[t]));
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        change[row + i] = there[k] - here[k];
+      }
+    }
+    row += count;
+  }
+  return change;
+}
+
 std::vector<NumericalShift> numerical_shifts(
     const Linearised& at, const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
     const SimulationError& error) {
@@ -189,19 +211,8 @@ std::vector<NumericalShift> numerical_shifts(
   std::vector<NumericalShift> shifts;
   for (const NumericalVariant& variant : error.variants) {
     Eigen::VectorXd difference = Eigen::VectorXd::Zero(at.jacobian.rows());  // priors below stay zero
-    Eigen::Index row = 0;
-    for (std::size_t t = 0; t < tests.size(); ++t) {
-      const auto count = static_cast<Eigen::Index>(tests[t]->measured().size());
-      if (variant.runs[t] && error.runs[t]) {
-        const experiments::Values other = tests[t]->decorrelated(tests[t]->distances(*variant.runs[t]));
-        const experiments::Values base = tests[t]->decorrelated(tests[t]->distances(*error.runs[t]));
-        for (Eigen::Index i = 0; i < count; ++i) {
-          const auto k = static_cast<std::size_t>(i);
-          difference[row + i] = other[k] - base[k];
-        }
-      }
-      row += count;
-    }
+    const Eigen::VectorXd change = stacked_change(tests, error.runs, variant.runs);
+    difference.head(change.size()) = change;
     shifts.push_back({variant.name, -solver.solve(difference)});
   }
   return shifts;

@@ -43,6 +43,13 @@ struct SimulationError {
     const datasets::Study& study, const model::Parameters<double>& parameters,
     const experiments::Simulate& simulate, int threads);
 
+/// What takes `from` to `to`, simulations of the `tests`: distances as fits see them, stacked. A test without
+/// either of the two has zeros.
+[[nodiscard]] Eigen::VectorXd stacked_change(
+    const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
+    const std::vector<std::optional<mpm::SlumpResult>>& from,
+    const std::vector<std::optional<mpm::SlumpResult>>& to);
+
 /// How far each variant moves the answer of a fit: by what its outlines differ, common to all tests.
 struct NumericalShift {
   std::string variant;

@@ -8,9 +8,9 @@
 
 namespace isotach::discovery {
 
-std::string name_of(const Candidate& candidate) {
+std::string name_of(const std::vector<const effects::Effect*>& added) {
   std::string name;
-  for (const effects::Effect* effect : candidate.added) {
+  for (const effects::Effect* effect : added) {
     if (!name.empty()) name += ", ";
     name += effect->name;
   }

@@ -21,8 +21,11 @@ struct Candidate {
   bool at_bound = false;                   ///< an added amplitude ends at zero or at its largest value
 };
 
-/// The names of the added effects, "ring_friction, gas"; "base" where there are none.
-[[nodiscard]] std::string name_of(const Candidate& candidate);
+/// The names of effects that are added, "ring_friction, gas"; "base" where there are none.
+[[nodiscard]] std::string name_of(const std::vector<const effects::Effect*>& added);
+[[nodiscard]] inline std::string name_of(const Candidate& candidate) {
+  return name_of(candidate.added);
+}
 
 /// Root mean square of residuals in units of the noise that the study states.
 struct Gap {

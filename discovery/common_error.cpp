@@ -2,6 +2,8 @@
 #include "discovery/common_error.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
+#include <iterator>
 
 #include "calibration/parallel.hpp"
 #include "datasets/slump_effects.hpp"
@@ -35,12 +37,8 @@ Eigen::MatrixXd CommonError::as_read(Eigen::MatrixXd whitened) const {
 tl::expected<CommonError, calibration::FitFailure> common_error(const SlumpBasis& basis,
                                                                 const SlumpTests& tests) {
   SlumpTests fitted;
-  Eigen::Index rows = 0;
-  for (const auto& test : tests) {
-    if (test->held_out()) continue;
-    fitted.push_back(test);
-    rows += static_cast<Eigen::Index>(test->measured().size());
-  }
+  std::copy_if(tests.begin(), tests.end(), std::back_inserter(fitted),
+               [](const auto& test) { return !test->held_out(); });
   std::vector<std::optional<mpm::SlumpResult>> other(fitted.size());
   std::vector<mpm::RunStatus> statuses(fitted.size(), mpm::RunStatus::ok);
   calibration::parallel_for(fitted.size(), basis.threads, [&](std::size_t i) {
@@ -61,23 +59,18 @@ tl::expected<CommonError, calibration::FitFailure> common_error(const SlumpBasis
   }
   std::vector<const std::vector<std::optional<mpm::SlumpResult>>*> variants{&other};
   for (const calibration::NumericalVariant& variant : basis.error.variants) variants.push_back(&variant.runs);
+  const auto all_ran = [](const std::vector<std::optional<mpm::SlumpResult>>& runs) {
+    return std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.has_value(); });
+  };
   std::vector<Eigen::VectorXd> columns;
   for (const auto* runs : variants) {
-    Eigen::VectorXd column(rows);
-    Eigen::Index row = 0;
-    bool all = runs->size() == fitted.size();
-    for (std::size_t i = 0; all && i < fitted.size(); ++i) {
-      all = (*runs)[i].has_value() && basis.error.runs[i].has_value();
-      if (!all) break;
-      const auto there = fitted[i]->decorrelated(fitted[i]->distances(*(*runs)[i]));
-      const auto here = fitted[i]->decorrelated(fitted[i]->distances(*basis.error.runs[i]));
-      for (std::size_t k = 0; k < there.size(); ++k) column[row++] = there[k] - here[k];
-    }
-    if (all) columns.push_back(std::move(column));
+    if (!all_ran(basis.error.runs) || !all_ran(*runs)) continue;
+    columns.push_back(calibration::stacked_change(fitted, basis.error.runs, *runs));
   }
-  Eigen::MatrixXd directions(rows, static_cast<Eigen::Index>(columns.size()));
+  if (columns.empty()) return CommonError();
+  Eigen::MatrixXd directions(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) directions.col(static_cast<Eigen::Index>(k)) = columns[k];
-  return columns.empty() ? CommonError() : CommonError(directions);
+  return CommonError(directions);
 }
 
 }  // namespace isotach::discovery

@@ -22,7 +22,6 @@ class CommonError {
   [[nodiscard]] Eigen::MatrixXd whitened(Eigen::MatrixXd residuals) const;
   /// Back again.
   [[nodiscard]] Eigen::MatrixXd as_read(Eigen::MatrixXd whitened) const;
-  [[nodiscard]] Eigen::Index directions() const { return basis_.cols(); }
 
  private:
   Eigen::MatrixXd basis_;  ///< orthonormal

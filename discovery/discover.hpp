@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,9 +63,13 @@ struct Discovery {
   std::vector<std::size_t> equivalent;     ///< trials that the data cannot tell apart, where ambiguous
   std::vector<Condition> conditions;       ///< of a name, on the best trial
   std::vector<Disagreement> disagreement;  ///< ranked
-  double best_wrong = 0.0;                 ///< gap of the best trial that is not the first (fitted tests)
-  double smoother = 0.0;                   ///< gap that a smoother of the base's residuals leaves
-  std::optional<NextExperiment> next;      ///< where ambiguous
+  /// Gap of the best trial that is not the first (fitted tests); NaN where there is none.
+  double best_wrong = std::numeric_limits<double>::quiet_NaN();
+  double smoother = 0.0;               ///< gap that a smoother of the base's residuals leaves
+  std::optional<NextExperiment> next;  ///< where ambiguous
+
+  /// What was chosen, else the base.
+  [[nodiscard]] const Trial& answer() const { return chosen ? trials[*chosen] : base; }
 };
 
 struct DiscoverOptions {

@@ -81,6 +81,24 @@ std::vector<double> largest_under_noise(const std::vector<Signature>& signatures
   return largest;
 }
 
+Projection::Projection(const Eigen::MatrixXd& jacobian) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), qr.rank());
+}
+
+Signature signature_of(const effects::Effect* effect, const Eigen::VectorXd& change, const Projection& base,
+                       const Eigen::VectorXd& residuals) {
+  const double norm = change.norm();
+  const Eigen::VectorXd left = base.freed(change);
+  Signature found{effect, Eigen::VectorXd::Zero(change.size()), 1.0, 0.0};
+  if (norm > 0.0 && left.norm() > kNothingLeft * norm) {
+    found.absorbed = std::sqrt(std::max(0.0, 1.0 - left.squaredNorm() / (norm * norm)));
+    found.unit = left.normalized();
+    found.z = -found.unit.dot(residuals);
+  }
+  return found;
+}
+
 double gain_of(const Signature& signature) {
   const double size = counted(signature, signature.z);
   return size * size;
@@ -106,8 +124,7 @@ tl::expected<ScoreTest, calibration::FitFailure> score(
   const auto at = problem.linearise(fit.result.main.coordinates);
   if (!at) return tl::unexpected(calibration::FitFailure{at.error().message});
   const auto values = static_cast<Eigen::Index>(problem.value_count());
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(at->jacobian);
-  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(at->jacobian.rows(), qr.rank());
+  const Projection base(at->jacobian);
 
   ScoreTest test;
   for (const effects::Effect* effect : effects) {
@@ -123,18 +140,10 @@ tl::expected<ScoreTest, calibration::FitFailure> score(
       for (std::size_t i = 0; i < all->size(); ++i) {
         if (!fit.experiments[i]->held_out()) fitted.push_back((*all)[i]);
       }
-      Eigen::VectorXd signature = Eigen::VectorXd::Zero(at->jacobian.rows());
-      signature.head(values) = problem.weighted(fitted).jacobian.col(0);
-      const double norm = signature.norm();
-      signature -= basis * (basis.transpose() * signature);
-      Signature found{effect, Eigen::VectorXd::Zero(signature.size()), 1.0, 0.0};
-      if (norm > 0.0 && signature.norm() > kNothingLeft * norm) {
-        found.absorbed = std::sqrt(std::max(0.0, 1.0 - signature.squaredNorm() / (norm * norm)));
-        found.unit = signature.normalized();
-        found.z = -found.unit.dot(at->residuals);
-      }
-      const double size = counted(found, found.z);
-      best = std::max(best, size * size);
+      Eigen::VectorXd change = Eigen::VectorXd::Zero(at->jacobian.rows());
+      change.head(values) = problem.weighted(fitted).jacobian.col(0);
+      Signature found = signature_of(effect, change, base, at->residuals);
+      best = std::max(best, gain_of(found));
       test.signatures.push_back(std::move(found));
     }
     test.effects.push_back(effect);

@@ -30,6 +30,23 @@ struct ScoreTest {
   std::vector<double> null_largest;  ///< sorted, of the bootstrap
 };
 
+/// Frees changes of residuals of what a model's parameters can do.
+class Projection {
+ public:
+  /// `jacobian` of the residuals by the parameters.
+  explicit Projection(const Eigen::MatrixXd& jacobian);
+  [[nodiscard]] Eigen::VectorXd freed(const Eigen::VectorXd& change) const {
+    return change - basis_ * (basis_.transpose() * change);
+  }
+
+ private:
+  Eigen::MatrixXd basis_;
+};
+
+/// Of a change that an effect makes of `residuals`.
+[[nodiscard]] Signature signature_of(const effects::Effect* effect, const Eigen::VectorXd& change,
+                                     const Projection& base, const Eigen::VectorXd& residuals);
+
 /// The largest of the signatures' z^2 under noise, each with its admissible sign: kReplicates of them,
 /// sorted.
 [[nodiscard]] std::vector<double> largest_under_noise(const std::vector<Signature>& signatures);

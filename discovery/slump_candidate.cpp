@@ -7,14 +7,6 @@
 
 namespace isotach::discovery {
 
-std::string name_of(const SlumpCandidate& candidate) {
-  std::string name;
-  for (const effects::Effect* effect : candidate.added) {
-    name += (name.empty() ? "" : ", ") + std::string(effect->name);
-  }
-  return name.empty() ? "base" : name;
-}
-
 SlumpCandidate slump_candidate(const SlumpBasis& basis, const std::vector<const effects::Effect*>& added) {
   const datasets::Study& study = basis.study;
   SlumpCandidate candidate;
@@ -68,17 +60,13 @@ void conclude(SlumpCandidate& candidate, const Eigen::VectorXd& as_read) {
   const calibration::Problem& problem = *candidate.problem;
   const std::vector<double>& x = candidate.at.coordinates;
   candidate.parameters = *problem.parametrisation().at(x);
+  const experiments::SlumpExperiment& any = *candidate.tests.front();  // all tests share effects
+  candidate.effects = any.effects_at(problem.parametrisation().local_of(any, x)).value();
   const auto& coordinates = problem.parametrisation().coordinates();
   candidate.at_bound = false;
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     if (!coordinates[k].effect) continue;
     const effects::ParameterRef parameter = *coordinates[k].effect;
-    const std::array parameters{parameter};
-    const std::array values{coordinates[k].quantity(x[k])};
-    if (auto moved = candidate.effects.with(std::span<const effects::ParameterRef>(parameters),
-                                            std::span<const double>(values))) {
-      candidate.effects = std::move(*moved);
-    }
     const bool added =
         std::find(candidate.added.begin(), candidate.added.end(), parameter.effect) != candidate.added.end();
     constexpr double kNear = 0.02;  // typical values: what simulations cannot tell from none

@@ -37,14 +37,14 @@ struct SlumpCandidate {
   double chi_squared = 0.0;  ///< priors included
   double bic = 0.0;          ///< the same over `scale` of the search, and ln n for each coordinate
   bool at_bound = false;     ///< an added amplitude ends at zero or at its largest value
-  bool converged = false;
   /// Root mean square of each fitted test's residuals.
   std::vector<double> gaps;
   double gap = 0.0;  ///< of all fitted tests
 };
 
-/// "wall_adhesion, basal_slip"; "base".
-[[nodiscard]] std::string name_of(const SlumpCandidate& candidate);
+[[nodiscard]] inline std::string name_of(const SlumpCandidate& candidate) {
+  return name_of(candidate.added);
+}
 
 /// The problem of a set of effects, amplitudes at zero where they are added; nothing is simulated.
 [[nodiscard]] SlumpCandidate slump_candidate(const SlumpBasis& basis,

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "discovery/limits.hpp"
 #include "discovery/slump_disagreement.hpp"
 #include "discovery/slump_next.hpp"
+#include "discovery/slump_verdict.hpp"
 
 namespace isotach::discovery {
 
@@ -27,33 +27,6 @@ using Effects = std::vector<const effects::Effect*>;
 constexpr int kBaseEvaluations = 7;
 constexpr int kTrialEvaluations = 4;
 constexpr double kShapeMove = 0.4;  // of a logarithm, for the difference by a shape
-// Beyond its noise an outline may be off by this much of it and still count as met, as in fits.
-constexpr double kMost = calibration::kAdequate;
-
-/// Parts of `rows` that columns cannot make.
-Eigen::VectorXd freed(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
-  return rows - basis * (basis.transpose() * rows);
-}
-
-bool contains(const Effects& all, const Effects& some) {
-  return std::all_of(some.begin(), some.end(), [&](const effects::Effect* effect) {
-    return std::find(all.begin(), all.end(), effect) != all.end();
-  });
-}
-
-Signature signature_of(const effects::Effect* effect, const Eigen::VectorXd& change,
-                       const SlumpCandidate& model) {
-  constexpr double kNothingLeft = 1e-6;
-  Signature found{effect, Eigen::VectorXd::Zero(change.size()), 1.0, 0.0};
-  const Eigen::VectorXd left = freed(model.at.jacobian, change);
-  if (left.norm() <= kNothingLeft * change.norm()) return found;
-  found.absorbed = std::sqrt(std::max(0.0, 1.0 - left.squaredNorm() / change.squaredNorm()));
-  found.unit = left.normalized();
-  found.z = -found.unit.dot(model.at.residuals);
-  return found;
-}
 
 class SlumpSearch {
  public:
@@ -78,15 +51,19 @@ class SlumpSearch {
   tl::expected<SlumpDiscovery, FitFailure> run() {
     if (auto failure = fit_base()) return tl::unexpected(*failure);
     if (auto failure = score_all()) return tl::unexpected(*failure);
-    found_.base.adequacy.meets_noise = meets(found_.base.candidate);
-    if (rejected()) {
+    if (!meets_noise(found_.base.candidate)) {
       if (auto failure = try_best()) return tl::unexpected(*failure);
-      weigh();
+      weigh(found_, null_);
       if (auto failure = try_pairs()) return tl::unexpected(*failure);
-      weigh();
+      weigh(found_, null_);
     }
     if (auto failure = compare()) return tl::unexpected(*failure);
-    decide();
+    decide(found_);
+    if (found_.verdict == Verdict::ambiguous) {
+      tell(0.95, "which test would decide");
+      found_.next = tell_slumps_apart(basis_, found_.trials[found_.equivalent[0]].candidate,
+                                      found_.trials[found_.equivalent[1]].candidate);
+    }
     found_.simulations = simulations_;
     tell(1.0, "done");
     return std::move(found_);
@@ -130,7 +107,6 @@ class SlumpSearch {
     auto fit = calibration::minimise_by_secants(*candidate.problem, candidate.at, secants, basis_.control);
     if (fit.interrupted) return interrupted();
     candidate.at = std::move(fit.at);
-    candidate.converged = fit.converged;
     conclude(candidate, common_.as_read(candidate.at.residuals));
     return std::nullopt;
   }
@@ -201,6 +177,7 @@ class SlumpSearch {
       }
     }
     const SlumpCandidate& base = found_.base.candidate;
+    const Projection projection(base.at.jacobian);
     for (std::size_t k = 0; k < effects.size(); ++k) {
       tell(0.3 + 0.2 * static_cast<double>(k) / static_cast<double>(effects.size()),
            "what " + std::string(effects[k]->name) + " would do");
@@ -213,8 +190,8 @@ class SlumpSearch {
         continue;
       }
       SlumpSignature found{effects[k], *residuals - base.at.residuals, {}, 0.0};
-      found.signature = signature_of(effects[k], found.change, base);
-      const double length = freed(base.at.jacobian, found.change).norm();
+      found.signature = signature_of(effects[k], found.change, projection, base.at.residuals);
+      const double length = projection.freed(found.change).norm();
       if (length > 0.0) found.amplitude = found.signature.z / length;
       found_.signatures.push_back(std::move(found));
     }
@@ -314,80 +291,6 @@ class SlumpSearch {
     return std::nullopt;
   }
 
-  [[nodiscard]] bool meets(const SlumpCandidate& candidate) const {
-    return std::all_of(candidate.gaps.begin(), candidate.gaps.end(), [](double gap) { return gap <= kMost; });
-  }
-
-  /// The scale of the residuals' variance, BIC by it, the base's rejection, and whether each trial is
-  /// adequate.
-  void weigh() {
-    const auto count = static_cast<double>(found_.base.candidate.problem->value_count());
-    const auto degrees = [&](const SlumpCandidate& candidate) {
-      return count - static_cast<double>(candidate.at.coordinates.size());
-    };
-    found_.scale = found_.base.candidate.chi_squared / degrees(found_.base.candidate);
-    for (const SlumpTrial& trial : found_.trials) {
-      found_.scale = std::min(found_.scale, trial.candidate.chi_squared / degrees(trial.candidate));
-    }
-    found_.scale = std::max(1.0, found_.scale);
-    const auto weigh_one = [&](SlumpCandidate& candidate) {
-      candidate.bic = candidate.chi_squared / found_.scale +
-                      static_cast<double>(candidate.at.coordinates.size()) * std::log(count);
-    };
-    weigh_one(found_.base.candidate);
-    for (SlumpTrial& trial : found_.trials) weigh_one(trial.candidate);
-    std::stable_sort(found_.trials.begin(), found_.trials.end(),
-                     [](const auto& a, const auto& b) { return a.candidate.bic < b.candidate.bic; });
-    prefer_fewer();
-    judge(found_.base);
-    found_.p_value = found_.base.adequacy.p_value;
-    for (SlumpTrial& trial : found_.trials) judge(trial);
-  }
-
-  /// A pair stands first only where it is better by the margin than each of its effects alone.
-  void prefer_fewer() {
-    if (found_.trials.empty() || found_.trials.front().candidate.added.size() == 1) return;
-    const SlumpCandidate& pair = found_.trials.front().candidate;
-    const auto single = std::find_if(found_.trials.begin(), found_.trials.end(), [&](const auto& trial) {
-      return trial.candidate.added.size() == 1 && contains(pair.added, trial.candidate.added) &&
-             trial.candidate.bic < pair.bic + kMargin;
-    });
-    if (single != found_.trials.end()) std::rotate(found_.trials.begin(), single, single + 1);
-  }
-
-  /// Lowest BIC, the base's included, of what does not have all of the effects.
-  [[nodiscard]] double next_without(const SlumpCandidate& best) const {
-    double next = found_.base.candidate.bic;
-    for (const SlumpTrial& trial : found_.trials) {
-      if (!contains(trial.candidate.added, best.added)) next = std::min(next, trial.candidate.bic);
-    }
-    return next;
-  }
-
-  /// What fits with more effects gain over the trial, and how rarely noise would let them. Not what scores
-  /// promise: they are secants over a typical amplitude, which noise far below it may follow and no
-  /// amplitude.
-  void judge(SlumpTrial& trial) {
-    const SlumpCandidate& candidate = trial.candidate;
-    trial.adequacy.meets_noise = meets(candidate);
-    trial.adequacy.most = nullptr;
-    double most = 0.0;
-    for (const SlumpTrial& other : found_.trials) {
-      if (&other == &trial || !contains(other.candidate.added, candidate.added)) continue;
-      const double gain = (candidate.chi_squared - other.candidate.chi_squared) / found_.scale;
-      if (gain <= most) continue;
-      most = gain;
-      for (const effects::Effect* effect : other.candidate.added) {
-        if (!contains(candidate.added, {effect})) trial.adequacy.most = effect;
-      }
-    }
-    trial.adequacy.p_value = most > 0.0 ? null_.p_value(most) : 1.0;
-    trial.adequate = trial.adequacy.meets_noise && trial.adequacy.p_value >= kLeavesNothing;
-  }
-
-  /// By the size of the misfit alone: the error of simulations is a measure, not a distribution, and within
-  /// it some effect of the catalogue nearly always improves the fit by more than noise would.
-  [[nodiscard]] bool rejected() const { return !found_.base.adequacy.meets_noise; }
   /// Simulations of all tests, held-out ones too, of the base and the best; where they disagree.
   std::optional<FitFailure> compare() {
     tell(0.9, "comparison of all tests");
@@ -432,62 +335,6 @@ class SlumpSearch {
     }
     trial.gap = {candidate.gap, count > 0.0 ? std::sqrt(squares / count) : std::nan("")};
     return std::nullopt;
-  }
-
-  void decide() {
-    for (const SlumpTrial& trial : found_.trials) {
-      if (contains(trial.candidate.added, found_.trials.front().candidate.added)) continue;
-      found_.best_wrong = trial.gap.fitted;
-      break;
-    }
-    found_.base.adequate = !rejected();
-    if (found_.base.adequate) {
-      found_.verdict = Verdict::adequate;
-      return;
-    }
-    found_.verdict = Verdict::unknown;
-    if (found_.trials.empty()) return;
-    const SlumpCandidate& best = found_.trials.front().candidate;
-    const double lead = next_without(best) - best.bic;
-    const auto require = [this](bool holds, std::string text) {
-      found_.conditions.push_back({std::move(text), holds});
-      return holds;
-    };
-    bool good = require(
-        found_.trials.front().adequate,
-        fmt::format("with {} the model meets every test, and no further effect is called for (p = {:.3g})",
-                    name_of(best), found_.trials.front().adequacy.p_value));
-    good &= require(!best.at_bound, "its amplitude lies within its bounds and is not zero");
-    const bool leads = require(
-        lead >= kMargin, fmt::format("its BIC is lower than that of any explanation without it, the base "
-                                     "included, by {:.1f} ({} asked)",
-                                     lead, kMargin));
-    if (found_.base.candidate.gaps.size() > 1) {
-      const double gain =
-          left_out_density(best, found_.scale) - left_out_density(found_.base.candidate, found_.scale);
-      good &= require(
-          gain >= kPredictsNoWorse,
-          fmt::format("tests left out of the fit are predicted no worse with it (log density {:+.1f})",
-                      gain));
-    }
-    if (!good) return;
-    if (leads) {
-      found_.verdict = Verdict::named;
-      found_.chosen = 0;
-      return;
-    }
-    for (std::size_t k = 0; k < found_.trials.size(); ++k) {
-      const SlumpCandidate& other = found_.trials[k].candidate;
-      const bool more = other.added.size() > best.added.size();
-      if (!more && other.bic < best.bic + kMargin) found_.equivalent.push_back(k);
-    }
-    if (found_.equivalent.size() < 2) {
-      found_.equivalent.clear();
-      return;
-    }
-    found_.verdict = Verdict::ambiguous;
-    tell(0.95, "which test would decide");
-    found_.next = tell_slumps_apart(basis_, best, found_.trials[found_.equivalent[1]].candidate);
   }
 
   const datasets::Study& study_;

@@ -35,14 +35,6 @@ struct SlumpTrial {
   std::vector<mpm::SlumpResult> simulations;  ///< of all tests, where they were asked for
 };
 
-/// A test that would tell two explanations apart.
-struct NextSlump {
-  std::string test;
-  std::string change;
-  double separation;  ///< of the predicted outlines, in units of their noise
-  double now;         ///< of the test as it was made
-};
-
 /// What an effect at its typical strength does to residuals, freed of what the base's parameters can do.
 struct SlumpSignature {
   const effects::Effect* effect;
@@ -64,11 +56,15 @@ struct SlumpDiscovery {
   std::vector<std::size_t> equivalent;
   std::vector<Condition> conditions;
   std::vector<SlumpDisagreement> disagreement;  ///< ranked
-  double best_wrong = 0.0;
+  /// Gap of the best trial without the first's effects (fitted tests); NaN where there is none.
+  double best_wrong = std::numeric_limits<double>::quiet_NaN();
   double smoother = 0.0;
-  std::optional<NextSlump> next;
+  std::optional<NextExperiment> next;
   long simulations = 0;
   std::vector<std::string> warnings;
+
+  /// What was chosen, else the base.
+  [[nodiscard]] const SlumpTrial& answer() const { return chosen ? trials[*chosen] : base; }
 };
 
 /// What oedometer tests say of the material beforehand.

@@ -54,8 +54,8 @@ double separation(const mpm::SlumpResult& a, const mpm::SlumpResult& b, double n
 
 }  // namespace
 
-std::optional<NextSlump> tell_slumps_apart(const SlumpBasis& basis, const SlumpCandidate& a,
-                                           const SlumpCandidate& b) {
+std::optional<NextExperiment> tell_slumps_apart(const SlumpBasis& basis, const SlumpCandidate& a,
+                                                const SlumpCandidate& b) {
   const datasets::SlumpTest* made = nullptr;
   for (const auto& test : basis.study.slump_tests) {
     if (!test.hold_out && made == nullptr) made = &test;
@@ -69,7 +69,7 @@ std::optional<NextSlump> tell_slumps_apart(const SlumpBasis& basis, const SlumpC
                               datasets::with_effects(variations[i / 2].setup, model.effects));
     if (run) runs[i] = std::move(*run);
   });
-  std::optional<NextSlump> best;
+  std::optional<NextExperiment> best;
   double now = 0.0;
   for (std::size_t v = 0; v < variations.size(); ++v) {
     if (!runs[2 * v] || !runs[2 * v + 1]) continue;
@@ -77,7 +77,7 @@ std::optional<NextSlump> tell_slumps_apart(const SlumpBasis& basis, const SlumpC
     if (v == 0) {
       now = apart;
     } else if (!best || apart > best->separation) {
-      best = NextSlump{made->name, variations[v].change, apart, 0.0};
+      best = NextExperiment{made->name, variations[v].change, apart, 0.0};
     }
   }
   if (best) best->now = now;

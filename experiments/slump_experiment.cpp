@@ -63,10 +63,17 @@ double SlumpExperiment::cost() const {
   return test_.setup.mould.fill_height * test_.setup.mould.diameter * test_.setup.times.back();
 }
 
+tl::expected<effects::Values<double>, PredictionFailure> SlumpExperiment::effects_at(
+    std::span<const double> local) const {
+  auto values = effects_.with(std::span<const effects::ParameterRef>(free_), local);
+  if (!values) return tl::unexpected(PredictionFailure{values.error().message()});
+  return *std::move(values);
+}
+
 tl::expected<mpm::SlumpResult, PredictionFailure> SlumpExperiment::simulate(
     const model::Parameters<double>& parameters, std::span<const double> local) const {
-  const auto effects = effects_.with(std::span<const effects::ParameterRef>(free_), local);
-  if (!effects) return tl::unexpected(PredictionFailure{effects.error().message()});
+  const auto effects = effects_at(local);
+  if (!effects) return tl::unexpected(effects.error());
   auto result = simulate_(test_.name, parameters, datasets::with_effects(test_.setup, *effects));
   if (!result) {
     return tl::unexpected(PredictionFailure{test_.name + ": " + result.error().message,

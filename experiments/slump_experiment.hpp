@@ -46,6 +46,9 @@ class SlumpExperiment final : public Experiment {
                                                                 std::span<const double> local) const override;
 
   [[nodiscard]] const datasets::SlumpTest& test() const { return test_; }
+  /// The test's effects with the free parameters as `local` has them.
+  [[nodiscard]] tl::expected<effects::Values<double>, PredictionFailure> effects_at(
+      std::span<const double> local) const;
   /// The simulation behind predict().
   [[nodiscard]] tl::expected<mpm::SlumpResult, PredictionFailure> simulate(
       const model::Parameters<double>& parameters, std::span<const double> local) const;

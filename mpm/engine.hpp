@@ -9,6 +9,7 @@
 
 #include "mpm/base_friction.hpp"
 #include "mpm/grid.hpp"
+#include "mpm/sliding_base.hpp"
 #include "mpm/team.hpp"
 #include "mpm/transfer.hpp"
 
@@ -126,15 +127,6 @@ class Engine {
     double stiffest = 0.0;      ///< largest modulus of a plane wave that the last step met (Pa)
   };
 
-  /// Velocities along a base that yields, of the nodes above and below it, before and after the step (m/s).
-  struct Slip {
-    bool touches = false;
-    double before_below = 0.0;
-    double before_above = 0.0;
-    double below = 0.0;
-    double above = 0.0;
-  };
-
   [[nodiscard]] double longest_step() const;
   void gather_team();
   void prepare();
@@ -144,8 +136,6 @@ class Engine {
   void push(double dt);
   void advance_nodes(double dt);
   void advance_row(std::size_t j, double dt, double& internal_work, double& applied_work, double& kinetic);
-  [[nodiscard]] bool slides() const { return grid_.sides().bottom == Side::fixed && base_.yields(); }
-  void slide(double dt);
   void fold(double dt);
   [[nodiscard]] std::optional<EngineFailure> stick_to_floor(double dt);
   [[nodiscard]] std::optional<EngineFailure> pull(double dt);
@@ -162,7 +152,7 @@ class Engine {
   std::vector<Body> bodies_;
   std::vector<Field> fields_;
   BaseFriction base_;
-  std::vector<Slip> slip_;  ///< at the columns of nodes
+  SlidingBase sliding_;
   std::unique_ptr<Engine> floor_;
 
   bool started_ = false;

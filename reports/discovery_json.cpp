@@ -1,5 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // A discovery as result.json.
+#include "reports/discovery_parts.hpp"
 #include "reports/discovery_report.hpp"
 #include "reports/json_number.hpp"
 #include "reports/result_head.hpp"
@@ -10,29 +11,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json names_of(const discovery::Candidate& candidate) {
-  ordered_json names = ordered_json::array();
-  for (const effects::Effect* effect : candidate.added) names.push_back(std::string(effect->name));
-  return names;
-}
-
-ordered_json parameters_of(const discovery::Candidate& candidate) {
-  ordered_json json = ordered_json::object();
-  for (const effects::Effect* effect : candidate.added) {
-    ordered_json values = ordered_json::object();
-    for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
-      const effects::ParameterRef parameter{effect, k};
-      values[std::string(effect->parameters[k].name)] =
-          json_number(candidate.fit.effects[parameter] / effect->parameters[k].to_si);
-    }
-    json[std::string(effect->name)] = std::move(values);
-  }
-  return json;
-}
-
 ordered_json trial_json(const discovery::Trial& trial) {
-  return {{"effects", names_of(trial.candidate)},
-          {"effect_parameters", parameters_of(trial.candidate)},
+  return {{"effects", names_json(trial.candidate.added)},
+          {"effect_parameters", values_json(trial.candidate.added, trial.candidate.fit.effects)},
           {"bic", json_number(trial.candidate.bic)},
           {"chi_squared", json_number(trial.candidate.chi_squared)},
           {"gap", json_number(trial.gap.fitted)},
@@ -45,20 +26,14 @@ ordered_json trial_json(const discovery::Trial& trial) {
 ordered_json discovery_json(const discovery::Discovery& found) {
   ordered_json json;
   json["verdict"] = std::string(name_of(found.verdict));
-  const discovery::Trial* named = found.chosen ? &found.trials[*found.chosen] : nullptr;
-  json["effects"] = named != nullptr ? names_of(named->candidate) : ordered_json::array();
+  const discovery::Trial& answer = found.answer();
+  json["effects"] = names_json(answer.candidate.added);
   json["equivalent"] = ordered_json::array();
-  for (const std::size_t k : found.equivalent)
-    json["equivalent"].push_back(names_of(found.trials[k].candidate));
-  json["effect_parameters"] = named != nullptr ? parameters_of(named->candidate) : ordered_json::object();
-  const discovery::Gap& before = found.base.gap;
-  json["gap"] = {
-      {"before", json_number(before.fitted)},
-      {"after", json_number(named != nullptr ? named->gap.fitted : before.fitted)},
-      {"held_out_before", json_number(before.held_out)},
-      {"held_out_after", json_number(named != nullptr ? named->gap.held_out : before.held_out)},
-      {"best_wrong_after", found.trials.size() > 1 ? json_number(found.best_wrong) : ordered_json(nullptr)},
-      {"smoother_after", json_number(found.smoother)}};
+  for (const std::size_t k : found.equivalent) {
+    json["equivalent"].push_back(names_json(found.trials[k].candidate.added));
+  }
+  json["effect_parameters"] = values_json(answer.candidate.added, answer.candidate.fit.effects);
+  json["gap"] = gap_json(found.base.gap, answer.gap, found.best_wrong, found.smoother);
   json["p_value"] = json_number(found.p_value);
   json["disagreement"] = ordered_json::array();
   for (const discovery::Disagreement& place : found.disagreement) {
@@ -70,19 +45,10 @@ ordered_json discovery_json(const discovery::Discovery& found) {
                                     {"rms_over_noise", json_number(place.stage.rms_over_noise)},
                                     {"score", json_number(place.score)}});
   }
-  json["conditions"] = ordered_json::array();
-  for (const discovery::Condition& condition : found.conditions) {
-    json["conditions"].push_back({{"condition", condition.text}, {"holds", condition.holds}});
-  }
+  json["conditions"] = conditions_json(found.conditions);
   json["trials"] = ordered_json::array();
   for (const discovery::Trial& trial : found.trials) json["trials"].push_back(trial_json(trial));
-  json["next_test"] = nullptr;
-  if (found.next) {
-    json["next_test"] = {{"test", found.next->test},
-                         {"change", found.next->change},
-                         {"separation", json_number(found.next->separation)},
-                         {"separation_now", json_number(found.next->now)}};
-  }
+  json["next_test"] = next_json(found.next);
   return json;
 }
 

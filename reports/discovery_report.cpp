@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "discovery/limits.hpp"
+#include "reports/discovery_parts.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
 #include "reports/slump_discovery_report.hpp"
@@ -24,39 +25,13 @@ std::string number(double value) {
   return format_number(value, 3);
 }
 
-std::string words_of(const discovery::Candidate& candidate) {
-  std::string words;
-  for (const effects::Effect* effect : candidate.added) {
-    if (!words.empty()) words += " and ";
-    words += fmt::format("{} ({})", effect->name, effect->meaning);
-  }
-  return words;
-}
-
-std::string parameters_of(const discovery::Candidate& candidate) {
-  std::string words;
-  for (const effects::Effect* effect : candidate.added) {
-    for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
-      const effects::EffectParameter& info = effect->parameters[k];
-      if (!words.empty()) words += ", ";
-      words += fmt::format("{} = {}", info.name,
-                           number(candidate.fit.effects[effects::ParameterRef{effect, k}] / info.to_si));
-    }
-  }
-  return words;
+std::string values_of(const discovery::Candidate& candidate) {
+  return reports::values_of(candidate.added, candidate.fit.effects);
 }
 
 std::string gap_words(const Discovery& found, const Trial& after) {
-  std::string words = fmt::format("The gap shrinks from {} to {} times the noise",
-                                  number(found.base.gap.fitted), number(after.gap.fitted));
-  if (std::isfinite(after.gap.held_out)) {
-    words += fmt::format(", on tests held out from {} to {}", number(found.base.gap.held_out),
-                         number(after.gap.held_out));
-  }
-  if (found.trials.size() > 1) {
-    words += fmt::format("; the next explanation reaches {}", number(found.best_wrong));
-  }
-  return words + fmt::format(", a curve drawn through the readings {}.", number(found.smoother));
+  return reports::gap_words({"The gap", "the noise", "readings"}, found.base.gap, after.gap, found.best_wrong,
+                            found.smoother);
 }
 
 void add_verdict(Page& page, const Discovery& found) {
@@ -71,7 +46,7 @@ void add_verdict(Page& page, const Discovery& found) {
     case Verdict::named: {
       const Trial& best = found.trials[*found.chosen];
       page.verdict(Tone::warning, fmt::format("The model lacks {}: the data are consistent with {}.",
-                                              words_of(best.candidate), parameters_of(best.candidate)));
+                                              described(best.candidate.added), values_of(best.candidate)));
       page.verdict(Tone::good, gap_words(found, best));
       return;
     }
@@ -83,14 +58,7 @@ void add_verdict(Page& page, const Discovery& found) {
       }
       page.verdict(Tone::warning,
                    fmt::format("The model lacks something that these tests cannot tell apart: {}.", names));
-      if (found.next) {
-        page.verdict(
-            Tone::plain,
-            fmt::format("{} {} would part the first two by {} standard deviations of noise (as it was "
-                        "made: {}).",
-                        found.next->test, found.next->change, number(found.next->separation),
-                        number(found.next->now)));
-      }
+      if (found.next) page.verdict(Tone::plain, next_words(*found.next));
       return;
     }
     case Verdict::unknown:
@@ -131,7 +99,7 @@ Table trials_table(const Discovery& found) {
                     Alignment::left}};
   const double least = found.trials.empty() ? found.base.candidate.bic : found.trials.front().candidate.bic;
   const auto row = [&](const Trial& trial) {
-    table.rows.push_back({name_of(trial.candidate), parameters_of(trial.candidate),
+    table.rows.push_back({name_of(trial.candidate), values_of(trial.candidate),
                           number(trial.candidate.bic - least), number(trial.gap.fitted),
                           std::isfinite(trial.gap.held_out) ? number(trial.gap.held_out) : kMissing,
                           trial.adequate ? "yes" : "no"});
@@ -161,8 +129,7 @@ Table score_table(const Discovery& found) {
   }
   table.notes.push_back(
       "Score: standard deviations of noise by which the residuals lie along the effect's signature, once "
-      "what "
-      "the base's parameters can do is taken from it.");
+      "what the base's parameters can do is taken from it.");
   return table;
 }
 
@@ -212,18 +179,8 @@ Figure residuals_figure(const Discovery& found, std::size_t test) {
 
 void add_explanations(Page& page, const Discovery& found) {
   page.table(trials_table(found));
-  if (!found.conditions.empty()) {
-    Table table{.caption = "Conditions of a name.", .header = {"condition", "holds"}};
-    for (const discovery::Condition& condition : found.conditions) {
-      table.rows.push_back({condition.text, condition.holds ? "yes" : "no"});
-    }
-    page.table(std::move(table));
-  }
-  if (!found.not_tried.empty()) {
-    Table table{.caption = "Effects that were not fitted.", .header = {"effect", "why"}};
-    for (const auto& [effect, why] : found.not_tried) table.rows.push_back({std::string(effect->name), why});
-    page.table(std::move(table));
-  }
+  add_conditions(page, found.conditions);
+  add_not_tried(page, found.not_tried);
 }
 
 }  // namespace
@@ -233,8 +190,7 @@ void add_discovery(Page& page, const Discovery& found) {
   page.section("Discovery: oedometer tests");
   page.paragraph(
       "Whether the model suffices for the oedometer tests, and which effect of the catalogue is missing if "
-      "it "
-      "does not; isotach discover has the whole of it.");
+      "it does not; isotach discover has the whole of it.");
   page.table(disagreement_table(found, kStagesOnFirstPage));
   add_explanations(page, found);
 }
@@ -267,13 +223,13 @@ void add_evidence(Page& page, const Discovery& found) {
   page.section("How it was decided");
   page.paragraph(fmt::format(
       "The base is rejected where a test or stage is missed by more than its stated noise, or where noise "
-      "alone "
-      "would let some effect improve the fit as much in less than {} of cases (parametric bootstrap of the "
-      "largest, "
-      "{} replicates). A name needs: a model that then meets every test and stage and calls for nothing more "
+      "alone would let some effect improve the fit as much in less than {} of cases (parametric bootstrap of "
+      "the "
+      "largest, {} replicates). A name needs: a model that then meets every test and stage and calls for "
+      "nothing more "
       "(p >= {}), a BIC lower than any other's by {}, an amplitude within its bounds, and predictions of "
-      "tests "
-      "left out of the fit that are no worse than the base's (log predictive density, which weighs how well "
+      "tests left out of the fit that are no worse than the base's (log predictive density, which weighs how "
+      "well "
       "the other tests hold the parameters). Tests held out take no part in any of it.",
       discovery::kRejects, discovery::kReplicates, discovery::kLeavesNothing, discovery::kMargin));
 }

@@ -205,17 +205,13 @@ std::string parameters_toml(const RunInfo& run, const Discoveries& found) {
   std::optional<FittedEffects> effects;
   std::string text;
   if (found.oedometer) {
-    const discovery::Discovery& oedometer = *found.oedometer;
-    const calibration::OedometerFit& fit =
-        oedometer.chosen ? oedometer.trials[*oedometer.chosen].candidate.fit : oedometer.base.candidate.fit;
+    const calibration::OedometerFit& fit = found.oedometer->answer().candidate.fit;
     text = render(run, all_by(fit.result, kByOedometer), fit.result.parameters->lode(),
                   {gauge_sentence(fit.result)});
     effects = effects_of(fit.effects, fit.result);
   }
   if (found.slump) {
-    const discovery::SlumpDiscovery& slump = *found.slump;
-    const discovery::SlumpCandidate& candidate =
-        slump.chosen ? slump.trials[*slump.chosen].candidate : slump.base.candidate;
+    const discovery::SlumpCandidate& candidate = found.slump->answer().candidate;
     if (!effects) text = render(run, origins_of(candidate), candidate.parameters->lode(), {});
     effects = effects ? merged(std::move(*effects), effects_of(candidate), effects::TestKind::slump)
                       : effects_of(candidate);

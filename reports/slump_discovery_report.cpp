@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/discovery_parts.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/json_number.hpp"
 #include "reports/number.hpp"
@@ -27,45 +28,13 @@ std::string three(double value) {
   return format_number(value, 3);
 }
 
-std::string described(const SlumpCandidate& candidate) {
-  std::string words;
-  for (const effects::Effect* effect : candidate.added) {
-    words += fmt::format("{}{} ({})", words.empty() ? "" : " and ", effect->name, effect->meaning);
-  }
-  return words;
-}
-
-/// Calls f(parameter, value in its file's unit) for each of the added effects' parameters.
-template <class F>
-void for_parameters(const SlumpCandidate& candidate, F&& f) {
-  for (const effects::Effect* effect : candidate.added) {
-    for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
-      const effects::ParameterRef parameter{effect, k};
-      f(parameter, candidate.effects[parameter] / effect->parameters[k].to_si);
-    }
-  }
-}
-
 std::string values_of(const SlumpCandidate& candidate) {
-  std::string words;
-  for_parameters(candidate, [&](const effects::ParameterRef& parameter, double value) {
-    words += fmt::format("{}{} = {}", words.empty() ? "" : ", ", parameter.info().name, three(value));
-  });
-  return words;
+  return reports::values_of(candidate.added, candidate.effects);
 }
 
 std::string gap_words(const SlumpDiscovery& found) {
-  const SlumpTrial& after = found.trials.front();
-  std::string words = fmt::format("The gap of the outlines shrinks from {} to {} times their noise",
-                                  three(found.base.gap.fitted), three(after.gap.fitted));
-  if (std::isfinite(after.gap.held_out)) {
-    words += fmt::format(", on tests held out from {} to {}", three(found.base.gap.held_out),
-                         three(after.gap.held_out));
-  }
-  if (found.trials.size() > 1) {
-    words += fmt::format("; the next explanation reaches {}", three(found.best_wrong));
-  }
-  return words + fmt::format(", a curve drawn through the points {}.", three(found.smoother));
+  return reports::gap_words({"The gap of the outlines", "their noise", "points"}, found.base.gap,
+                            found.trials.front().gap, found.best_wrong, found.smoother);
 }
 
 void add_verdict(Page& page, const SlumpDiscovery& found) {
@@ -79,7 +48,7 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
     case Verdict::named: {
       const SlumpTrial& best = found.trials[*found.chosen];
       page.verdict(Tone::warning, fmt::format("Slumps: the model lacks {}: the data are consistent with {}.",
-                                              described(best.candidate), values_of(best.candidate)));
+                                              described(best.candidate.added), values_of(best.candidate)));
       page.verdict(Tone::good, gap_words(found));
       return;
     }
@@ -91,12 +60,7 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
       page.verdict(
           Tone::warning,
           fmt::format("Slumps: the model lacks something that these tests cannot tell apart: {}.", names));
-      if (found.next) {
-        page.verdict(Tone::plain, fmt::format("{} {} would part the first two by {} standard deviations of "
-                                              "noise (as it was made: {}).",
-                                              found.next->test, found.next->change,
-                                              three(found.next->separation), three(found.next->now)));
-      }
+      if (found.next) page.verdict(Tone::plain, next_words(*found.next));
       return;
     }
     case Verdict::unknown:
@@ -233,24 +197,10 @@ void add_outlines(Page& page, const SlumpDiscovery& found) {
   }
 }
 
-ordered_json names_of(const SlumpCandidate& candidate) {
-  ordered_json names = ordered_json::array();
-  for (const effects::Effect* effect : candidate.added) names.push_back(std::string(effect->name));
-  return names;
-}
-
-ordered_json parameters_of(const SlumpCandidate& candidate) {
-  ordered_json json = ordered_json::object();
-  for_parameters(candidate, [&](const effects::ParameterRef& parameter, double value) {
-    json[std::string(parameter.effect->name)][std::string(parameter.info().name)] = json_number(value);
-  });
-  return json;
-}
-
 ordered_json trial_json(const SlumpTrial& trial) {
   const SlumpCandidate& candidate = trial.candidate;
-  return {{"effects", names_of(candidate)},
-          {"effect_parameters", parameters_of(candidate)},
+  return {{"effects", names_json(candidate.added)},
+          {"effect_parameters", values_json(candidate.added, candidate.effects)},
           {"I_v", json_number(candidate.parameters->I_v())},
           {"C_1", json_number(candidate.parameters->C_1())},
           {"bic", json_number(candidate.bic)},
@@ -274,41 +224,23 @@ void add_slump_discovery(Page& page, const SlumpDiscovery& found) {
   page.table(place_table(found));
   add_outlines(page, found);
   page.table(trial_table(found));
-  if (!found.conditions.empty()) {
-    Table table{.caption = "Conditions of a name.", .header = {"condition", "holds"}};
-    for (const discovery::Condition& condition : found.conditions) {
-      table.rows.push_back({condition.text, condition.holds ? "yes" : "no"});
-    }
-    page.table(std::move(table));
-  }
+  add_conditions(page, found.conditions);
   page.table(signature_table(found));
   page.table(likeness_table(found));
-  if (!found.not_tried.empty()) {
-    Table table{.caption = "Effects that were not fitted.", .header = {"effect", "why"}};
-    for (const auto& [effect, why] : found.not_tried) table.rows.push_back({std::string(effect->name), why});
-    page.table(std::move(table));
-  }
+  add_not_tried(page, found.not_tried);
 }
 
 ordered_json discovery_json(const SlumpDiscovery& found) {
   ordered_json json;
   json["verdict"] = std::string(name_of(found.verdict));
-  const SlumpTrial* named = found.chosen ? &found.trials[*found.chosen] : nullptr;
-  json["effects"] = named != nullptr ? names_of(named->candidate) : ordered_json::array();
+  const SlumpTrial& answer = found.answer();
+  json["effects"] = names_json(answer.candidate.added);
   json["equivalent"] = ordered_json::array();
   for (const std::size_t k : found.equivalent) {
-    json["equivalent"].push_back(names_of(found.trials[k].candidate));
+    json["equivalent"].push_back(names_json(found.trials[k].candidate.added));
   }
-  json["effect_parameters"] = named != nullptr ? parameters_of(named->candidate) : ordered_json::object();
-  const discovery::Gap& before = found.base.gap;
-  const discovery::Gap& after = named != nullptr ? named->gap : before;
-  json["gap"] = {
-      {"before", json_number(before.fitted)},
-      {"after", json_number(after.fitted)},
-      {"held_out_before", json_number(before.held_out)},
-      {"held_out_after", json_number(after.held_out)},
-      {"best_wrong_after", found.trials.size() > 1 ? json_number(found.best_wrong) : ordered_json(nullptr)},
-      {"smoother_after", json_number(found.smoother)}};
+  json["effect_parameters"] = values_json(answer.candidate.added, answer.candidate.effects);
+  json["gap"] = gap_json(found.base.gap, answer.gap, found.best_wrong, found.smoother);
   json["p_value"] = json_number(found.p_value);
   json["disagreement"] = ordered_json::array();
   for (const discovery::SlumpDisagreement& place : found.disagreement) {
@@ -321,10 +253,7 @@ ordered_json discovery_json(const SlumpDiscovery& found) {
                                     {"mean_mm", json_number(place.mean / kMillimetre)},
                                     {"score", json_number(place.score)}});
   }
-  json["conditions"] = ordered_json::array();
-  for (const discovery::Condition& condition : found.conditions) {
-    json["conditions"].push_back({{"condition", condition.text}, {"holds", condition.holds}});
-  }
+  json["conditions"] = conditions_json(found.conditions);
   json["base"] = trial_json(found.base);
   json["trials"] = ordered_json::array();
   for (const SlumpTrial& trial : found.trials) json["trials"].push_back(trial_json(trial));
@@ -334,13 +263,7 @@ ordered_json discovery_json(const SlumpDiscovery& found) {
                               {"score", json_number(one.signature.z)},
                               {"absorbed", json_number(one.signature.absorbed)}});
   }
-  json["next_test"] = nullptr;
-  if (found.next) {
-    json["next_test"] = {{"test", found.next->test},
-                         {"change", found.next->change},
-                         {"separation", json_number(found.next->separation)},
-                         {"separation_now", json_number(found.next->now)}};
-  }
+  json["next_test"] = next_json(found.next);
   json["simulations"] = found.simulations;
   json["warnings"] = found.warnings;
   return json;
