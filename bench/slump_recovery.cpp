@@ -37,6 +37,7 @@ datasets::Study base_study() {
   datasets::Study study =
       datasets::read_study(std::filesystem::path(ISOTACH_SOURCE_DIR) / "datasets/mud-a/study.toml");
   std::erase_if(study.slump_tests, [](const datasets::SlumpTest& test) { return test.hold_out; });
+  for (datasets::SlumpTest& test : study.slump_tests) test.reference.reset();
   auto values = study.material.values();
   values[ParameterId::I_v] = 0.03;
   values[ParameterId::C_1] = 0.08;
@@ -81,7 +82,8 @@ using Tests = std::vector<std::shared_ptr<const SlumpExperiment>>;
 Tests experiments_of(const datasets::Study& study, const experiments::SharedError& error) {
   Tests tests;
   for (const auto& test : study.slump_tests) {
-    tests.push_back(std::make_shared<SlumpExperiment>(test, simulate, error));
+    tests.push_back(std::make_shared<SlumpExperiment>(
+        test, experiments::SlumpModel{.simulate = simulate, .simulation_error = error}));
   }
   return tests;
 }

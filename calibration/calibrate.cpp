@@ -112,14 +112,14 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
       };
       auto alone = assess_slump(study, *found, moved, slump_options);
       if (!alone) return tl::unexpected(alone.error());
-      found->parameters = *alone->result.parameters;  // the map may have led on
-      runs = alone->runs;                             // the search's among them
+      found->at = {*alone->result.parameters, alone->effects, alone->mud};  // the map may have led on
+      runs = alone->runs;                                                   // the search's among them
       calibration.slump_alone = std::move(*alone);
       slump_options.map = false;
       done += 2.0 * static_cast<double>(moved.size()) + 23.0;
     }
 
-    const model::Parameters<double> after = found->parameters;
+    const model::Parameters<double> after = found->at.parameters;
     oedometer_options.start_from_data = false;  // the answer before is nearer
     auto refit = fit_oedometer(study, after, oedometer_list, oedometer_options);
     if (!refit) return tl::unexpected(refit.error());
@@ -138,7 +138,7 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
 
   report(0.0, "uncertainty and comparison of all tests");
   slump_options.control.callback = nullptr;
-  found->parameters = *calibration.oedometer.result.parameters;
+  found->at.parameters = *calibration.oedometer.result.parameters;
   found->runs = runs;
   const std::vector<ParameterId>& last_list = later_slump_list.empty() ? slump_list : later_slump_list;
   auto slump = assess_slump(study, *found, last_list, slump_options);

@@ -31,14 +31,17 @@ struct ParameterEstimate {
 
 /// A quantity of one test's start, or a parameter of an effect, that the fit moved. SI.
 struct LocalEstimate {
-  std::string name;  ///< "crs-1: K0", "ring_friction.mu"
+  std::string name;  ///< "crs-1: K0", "ring_friction.mu", "e0"
   double value = 0.0;
   double std_error = 0.0;
   double ci95_lower = 0.0;
   double ci95_upper = 0.0;
   Verdict verdict = Verdict::fixed;
   std::string words{};
-  std::optional<effects::ParameterRef> effect{};  ///< nothing: of a test's start
+  std::optional<effects::ParameterRef> effect{};  ///< nothing: of tests' start
+  bool of_all = false;                            ///< one value for all tests, as an effect's always is
+
+  [[nodiscard]] bool shared() const { return of_all || effect.has_value(); }
 };
 
 /// How a test is met.

@@ -18,8 +18,6 @@ namespace isotach::calibration {
 
 namespace {
 
-using SlumpExperiments = std::vector<std::shared_ptr<const experiments::SlumpExperiment>>;
-
 /// Counts how simulations end.
 class RunTally {
  public:
@@ -60,24 +58,6 @@ experiments::Simulate counted(const SlumpFitOptions& options, const std::shared_
   };
 }
 
-SlumpExperiments make_experiments(const datasets::Study& study, const effects::Values<double>& effects,
-                                  const experiments::Simulate& simulate, const SimulationError& error) {
-  std::vector<effects::ParameterRef> free;
-  for (const datasets::FreeEffect& one : study.fit.slump_effects) free.push_back(one.parameter);
-  SlumpExperiments all;
-  for (const auto& test : study.slump_tests) {
-    all.push_back(std::make_shared<experiments::SlumpExperiment>(test, simulate, error.error, effects, free));
-  }
-  return all;
-}
-
-/// The tests' effects, free ones as x has them.
-effects::Values<double> effects_at(const SlumpExperiments& tests, const Problem& problem,
-                                   const std::vector<double>& x) {
-  const experiments::SlumpExperiment& any = *tests.front();  // all tests share them
-  return any.effects_at(problem.parametrisation().local_of(any, x)).value();
-}
-
 double rms_where(const experiments::Values& values, const std::vector<bool>& chosen) {
   experiments::Values subset;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -108,7 +88,7 @@ tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(
   const std::vector<std::size_t> order = by_cost({all.begin(), all.end()});
   parallel_for(all.size(), threads, [&](std::size_t k) {
     const std::size_t i = order[k];
-    simulations[i] = all[i]->simulate(parameters, problem.parametrisation().local_of(*all[i], x));
+    simulations[i] = all[i]->simulate_at_best(parameters, problem.parametrisation().local_of(*all[i], x));
   });
   std::vector<SlumpComparison> comparisons;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -133,17 +113,6 @@ double rms_mould_gone(const std::vector<SlumpComparison>& comparisons) {
     }
   }
   return experiments::root_mean_square(values);
-}
-
-/// The study's tests in their order. D_r stays: the oedometer's gauge has been applied.
-Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
-                     const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
-                     int threads) {
-  const Experiments in_order(all.begin(), all.end());
-  return Problem(
-      in_order,
-      Parametrisation(at, wanted, {study.fit.bounds, {}, study.fit.slump_effects}, GaugeChoice{}, in_order),
-      threads);
 }
 
 }  // namespace
@@ -179,10 +148,9 @@ namespace {
 constexpr double kCoordinateTolerance = 0.01;  // simulations carry noise of about this size
 constexpr double kCostTolerance = 1e-3;
 
-/// One search on simulations from the problem's start.
+/// One search on simulations.
 OptimiserResult search_by(datasets::SlumpRoute route, const Problem& problem,
-                          const SlumpFitOptions& options) {
-  const std::vector<double> start = problem.parametrisation().start();
+                          const std::vector<double>& start, const SlumpFitOptions& options) {
   if (route == datasets::SlumpRoute::ceres) {
     CeresOptions ceres;
     // an iteration is a linearisation: an evaluation and two for each coordinate
@@ -205,13 +173,45 @@ OptimiserResult search_by(datasets::SlumpRoute route, const Problem& problem,
 
 }  // namespace
 
+namespace {
+
+/// The best of the routes' answers; `others` are those of the other routes.
+tl::expected<OptimiserResult, FitFailure> search_by_routes(const Problem& problem,
+                                                           const std::vector<double>& start,
+                                                           const RunTally& tally,
+                                                           const SlumpFitOptions& options,
+                                                           std::vector<OptimiserResult>& others) {
+  others.clear();
+  for (const datasets::SlumpRoute route : options.routes) {
+    const long before = tally.counts().total();
+    OptimiserResult search = search_by(route, problem, start, options);
+    search.simulations = tally.counts().total() - before;
+    if (search.interrupted) return tl::unexpected(FitFailure{"interrupted", true});
+    others.push_back(std::move(search));
+  }
+  const auto best = std::min_element(others.begin(), others.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.trace.empty(), a.cost) < std::pair(b.trace.empty(), b.cost);
+  });
+  OptimiserResult search = std::move(*best);
+  others.erase(best);
+  if (search.trace.empty()) {
+    return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
+  }
+  return search;
+}
+
+constexpr int kMostCorrections = 3;
+constexpr double kCorrectionStays = 0.05;  // of a logarithm: corrections change by far less than simulations
+
+}  // namespace
+
 tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
                                                    const model::Parameters<double>& start,
                                                    const std::vector<model::ParameterId>& wanted,
                                                    const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
   const experiments::Simulate simulate = counted(options, tally);
-  SlumpSearch found{start, study.effects, {}, {}, {}, {}, {}};
+  SlumpSearch found{{start, study.effects, {}}, {}, {}, {}, {}, {}};
   if (options.simulation_error) {
     found.simulation_error = *options.simulation_error;
   } else {
@@ -220,28 +220,23 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
     if (!measured) return tl::unexpected(measured.error());
     found.simulation_error = std::move(*measured);
   }
-  const SlumpExperiments all = make_experiments(study, study.effects, simulate, found.simulation_error);
-  const Problem problem = make_problem(all, study, start, wanted, options.threads);
-  const Parametrisation& parametrisation = problem.parametrisation();
-  for (const datasets::SlumpRoute route : options.routes) {
-    const long before = tally->counts().total();
-    OptimiserResult search = search_by(route, problem, options);
-    search.simulations = tally->counts().total() - before;
-    if (search.interrupted) return tl::unexpected(FitFailure{"interrupted", true});
-    found.others.push_back(std::move(search));
+  SlumpFitOptions pass_options = options;
+  for (int pass = 1;; ++pass) {
+    const auto slumps =
+        corrected_slumps(study, found.at, wanted, simulate, found.simulation_error, options.threads);
+    if (!slumps) return tl::unexpected(slumps.error());
+    const std::vector<double>& from = slumps->start;
+    auto best = search_by_routes(slumps->problem, from, *tally, pass_options, found.others);
+    if (!best) return tl::unexpected(best.error());
+    const std::vector<double>& to = best->coordinates;
+    double moved = 0.0;
+    for (std::size_t k = 0; k < to.size(); ++k) moved = std::max(moved, std::abs(to[k] - from[k]));
+    found.at = slumps->place_at(to);
+    found.search = std::move(*best);
+    if (!has_reference(study) || moved < kCorrectionStays || pass == kMostCorrections) break;
+    pass_options.first_step = std::min(pass_options.first_step, moved);
+    pass_options.first_step_C_1 = std::min(pass_options.first_step_C_1, moved);
   }
-  const auto best =
-      std::min_element(found.others.begin(), found.others.end(), [](const auto& a, const auto& b) {
-        return std::pair(a.trace.empty(), a.cost) < std::pair(b.trace.empty(), b.cost);
-      });
-  OptimiserResult search = std::move(*best);
-  found.others.erase(best);
-  if (search.trace.empty()) {
-    return tl::unexpected(FitFailure{"no simulation succeeded; the last failure: " + search.last_failure});
-  }
-  found.parameters = *parametrisation.at(search.coordinates);
-  found.effects = effects_at(all, problem, search.coordinates);
-  found.search = std::move(search);
   found.runs = tally->counts();
   if (!found.search.converged) {
     found.warnings.push_back(
@@ -328,19 +323,27 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
                                                 const std::vector<model::ParameterId>& wanted,
                                                 const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
-  const SlumpExperiments all =
-      make_experiments(study, found.effects, counted(options, tally), found.simulation_error);
-  const Problem problem = make_problem(all, study, found.parameters, wanted, options.threads);
-  std::vector<double> answer = problem.parametrisation().start();
+  const auto slumps = corrected_slumps(study, found.at, wanted, counted(options, tally),
+                                       found.simulation_error, options.threads);
+  if (!slumps) return tl::unexpected(slumps.error());
+  const SlumpExperiments& all = slumps->tests;
+  const Problem& problem = slumps->problem;
+  std::vector<double> answer = slumps->start;
   SlumpFit fit;
   FitResult& result = fit.result;
   fit.simulation_error = found.simulation_error;
+  fit.corrections = slumps->corrections;
+  if (fit.corrections.failed > 0) {
+    fit.result.warnings.push_back(fmt::format(
+        "{} of the tests could not be simulated with the reference numerics, and stay uncorrected",
+        fit.corrections.failed));
+  }
   result.free = problem.parametrisation().free();
   result.coordinates = problem.parametrisation().coordinates();
   result.main = found.search;
   fit.other_routes = found.others;
   result.warnings = found.warnings;
-  result.parameters = found.parameters;
+  result.parameters = found.at.parameters;
 
   tell(options, SlumpFitStage::uncertainty);
   auto uncertainty = estimate_uncertainty(problem, answer, Correlation::independent);
@@ -378,7 +381,9 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
   if (fit.map) heed_profiles(problem, *fit.map, result);
 
   tell(options, SlumpFitStage::comparison);
-  fit.effects = effects_at(all, problem, answer);
+  const SlumpPlace place = slumps->place_at(answer);
+  fit.effects = place.effects;
+  fit.mud = place.mud;
   auto comparisons = compare_all(all, problem, answer, *result.parameters, options.threads);
   if (!comparisons) return tl::unexpected(comparisons.error());
   fit.comparisons = std::move(*comparisons);

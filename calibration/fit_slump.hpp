@@ -2,8 +2,8 @@
 // The fit of a study's slump tests by MPM simulations.
 #pragma once
 
+#include "calibration/corrected_slumps.hpp"
 #include "calibration/fit_result.hpp"
-#include "calibration/simulation_error.hpp"
 #include "calibration/slump_map.hpp"
 #include "datasets/study.hpp"
 #include "experiments/slump_experiment.hpp"
@@ -23,6 +23,8 @@ struct SlumpComparison {
 struct SlumpFit {
   FitResult result;
   effects::Values<double> effects;           ///< those of the study, at the answer
+  std::vector<double> mud;                   ///< of the study's slump_mud, at the answer
+  Corrections corrections;                   ///< to the study's reference numerics, about the answer
   std::vector<SlumpComparison> comparisons;  ///< all tests of the study
   double rms_mould_gone = 0.0;               ///< m, over all tests, held-out ones included
   mpm::RunCounts runs;                       ///< simulations by how they ended, those of the search included
@@ -60,8 +62,7 @@ struct SlumpFitOptions {
 
 /// What a search found, before its uncertainty and the comparison with all tests are worked out.
 struct SlumpSearch {
-  model::Parameters<double> parameters;
-  effects::Values<double> effects;      ///< of the study, free ones at the answer
+  SlumpPlace at;                        ///< the answer
   OptimiserResult search;               ///< the route that ended best
   std::vector<OptimiserResult> others;  ///< the other routes that were asked for
   mpm::RunCounts runs;                  ///< simulations by how they ended
@@ -70,7 +71,8 @@ struct SlumpSearch {
 };
 
 /// Moves `wanted` from `start` to fit the study's slump tests that are not held out; tests of one evaluation
-/// run in parallel.
+/// run in parallel. Where the study has reference numerics, simulations are corrected to them at the start,
+/// and the search goes on from its answer, corrected there, until it stays.
 [[nodiscard]] tl::expected<SlumpSearch, FitFailure> search_slump(
     const datasets::Study& study, const model::Parameters<double>& start,
     const std::vector<model::ParameterId>& wanted, const SlumpFitOptions& options);

@@ -76,10 +76,14 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
   const experiments::Simulate simulate =
       options.simulate ? options.simulate : plain_simulation(options.control.stop);
   Experiments slumps;
-  for (const auto& test : study.slump_tests) {
-    if (test.hold_out) continue;
+  for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
+    if (study.slump_tests[i].hold_out) continue;
+    datasets::SlumpTest found = study.slump_tests[i];
+    found.setup.mud = datasets::with_values(found.setup.mud, study.fit.slump_mud, slump.mud);
     slumps.push_back(std::make_shared<experiments::SlumpExperiment>(
-        test, simulate, slump.simulation_error.error, slump.effects));
+        std::move(found),
+        experiments::SlumpModel{
+            simulate, slump.simulation_error.error, slump.effects, {}, {}, slump.corrections.of(i)}));
   }
   const CoordinateSettings settings{study.fit.bounds, study.fit.priors, study.fit.oedometer_effects};
   const Problem simulated(slumps,

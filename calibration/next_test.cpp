@@ -161,7 +161,8 @@ class Rating {
       result_.simulation_error = *error;
     }
     for (std::size_t i = 0; i < setups.size(); ++i) {
-      const SlumpExperiment experiment(fitted.slump_tests[i], {}, result_.simulation_error.error);
+      const SlumpExperiment experiment(fitted.slump_tests[i],
+                                       {.simulation_error = result_.simulation_error.error});
       const auto jacobian = slump_jacobian(experiment, present->runs[i], parametrisation_.size());
       if (!jacobian) {
         return FitFailure{setups[i].name + " at the study's material: " + jacobian.error()};
@@ -327,8 +328,8 @@ class Rating {
         first = false;
         tl::expected<Eigen::MatrixXd, std::string> jacobian = tl::unexpected(runs.failure);
         if (runs.base) {
-          const SlumpExperiment experiment(test_of(runs, pictures.times, spacing, noise), {},
-                                           result_.simulation_error.error);
+          const SlumpExperiment experiment(test_of(runs, pictures.times, spacing, noise),
+                                           {.simulation_error = result_.simulation_error.error});
           jacobian = slump_jacobian(experiment, runs, parametrisation_.size());
         }
         add_rating(std::move(rating), jacobian);

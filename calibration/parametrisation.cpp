@@ -55,10 +55,10 @@ Coordinate coordinate_of(const experiments::LocalQuantity& local, std::string na
   return coordinate;
 }
 
-/// Bounds of an effect's parameter: the study's, else the catalogue's.
+/// Of an effect's parameter those of the study, else the quantity's own.
 datasets::Bounds bounds_of(const CoordinateSettings& settings, const experiments::LocalQuantity& local) {
   for (const datasets::FreeEffect& free : settings.effects) {
-    if (free.parameter == *local.effect && free.bounds) return *free.bounds;
+    if (free.parameter == local.effect && free.bounds) return *free.bounds;
   }
   return {local.lower, local.upper};
 }
@@ -94,9 +94,10 @@ Parametrisation::Parametrisation(const model::Parameters<double>& start,
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     if (experiments[i]->held_out()) continue;
     for (const experiments::LocalQuantity& local : locals_[i]) {
-      if (!local.effect || find(*local.effect)) continue;
+      if (!local.shared() || find(local)) continue;
       Coordinate coordinate = coordinate_of(local, local.name, bounds_of(settings, local));
       coordinate.effect = local.effect;
+      coordinate.shared = true;
       coordinates_.push_back(std::move(coordinate));
     }
   }
@@ -104,7 +105,7 @@ Parametrisation::Parametrisation(const model::Parameters<double>& start,
     if (experiments[i]->held_out()) continue;
     for (std::size_t k = 0; k < locals_[i].size(); ++k) {
       const experiments::LocalQuantity& local = locals_[i][k];
-      if (local.effect) continue;
+      if (local.shared()) continue;
       Coordinate coordinate =
           coordinate_of(local, experiments[i]->name() + ": " + local.name, {local.lower, local.upper});
       coordinate.experiment = i;
@@ -114,9 +115,9 @@ Parametrisation::Parametrisation(const model::Parameters<double>& start,
   }
 }
 
-std::optional<std::size_t> Parametrisation::find(const effects::ParameterRef& effect) const {
+std::optional<std::size_t> Parametrisation::find(const experiments::LocalQuantity& shared) const {
   for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
-    if (coordinates_[k].effect == effect) return k;
+    if (coordinates_[k].shared && coordinates_[k].name == shared.name) return k;
   }
   return std::nullopt;
 }
@@ -167,25 +168,25 @@ std::vector<double> Parametrisation::local_at(const std::vector<double>& x, std:
   std::vector<double> values;
   for (const experiments::LocalQuantity& local : locals_[experiment]) values.push_back(local.value);
   for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
-    if (!coordinates_[k].effect && coordinates_[k].experiment == experiment) {
+    if (!coordinates_[k].shared && coordinates_[k].experiment == experiment) {
       values[coordinates_[k].local] = coordinates_[k].quantity(x[k]);
     }
   }
-  set_effects(locals_[experiment], x, values);
+  set_shared(locals_[experiment], x, values);
   return values;
 }
 
 std::vector<double> Parametrisation::local_of(const experiments::Experiment& experiment,
                                               const std::vector<double>& x) const {
   std::vector<double> values = experiment.local_values();
-  set_effects(experiment.locals(), x, values);
+  set_shared(experiment.locals(), x, values);
   return values;
 }
 
-void Parametrisation::set_effects(const std::vector<experiments::LocalQuantity>& locals,
-                                  const std::vector<double>& x, std::vector<double>& values) const {
+void Parametrisation::set_shared(const std::vector<experiments::LocalQuantity>& locals,
+                                 const std::vector<double>& x, std::vector<double>& values) const {
   for (std::size_t i = 0; i < locals.size(); ++i) {
-    const auto k = locals[i].effect ? find(*locals[i].effect) : std::nullopt;
+    const auto k = locals[i].shared() ? find(locals[i]) : std::nullopt;
     if (k) values[i] = coordinates_[*k].quantity(x[*k]);
   }
 }
@@ -218,10 +219,10 @@ Eigen::MatrixXd Parametrisation::directions(const Tangent& tangent, const std::v
   for (std::size_t k = free_.size(); k < coordinates_.size(); ++k) {
     const Coordinate& coordinate = coordinates_[k];
     for (std::size_t i = 0; i < locals; ++i) {
-      const auto& effect = locals_[experiment][i].effect;
+      const experiments::LocalQuantity& local = locals_[experiment][i];
       const bool same =
-          effect ? coordinate.effect == effect
-                 : !coordinate.effect && coordinate.experiment == experiment && coordinate.local == i;
+          local.shared() ? coordinate.shared && coordinate.name == local.name
+                         : !coordinate.shared && coordinate.experiment == experiment && coordinate.local == i;
       if (!same) continue;
       result(static_cast<Eigen::Index>(model::kParameterCount + i), static_cast<Eigen::Index>(k)) =
           coordinate.slope(x[k]);

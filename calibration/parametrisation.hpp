@@ -28,11 +28,12 @@ struct CoordinatePrior {
   double std_error;
 };
 
-/// One coordinate: a material parameter, one of an effect, or a quantity of one test's start.
+/// One coordinate: a material parameter, one of an effect, or a quantity of tests' start.
 struct Coordinate {
   std::string name;                             ///< "lambda", "ring_friction.mu", "crs-1: K0"
   std::optional<model::ParameterId> id;         ///< of a material parameter
-  std::optional<effects::ParameterRef> effect;  ///< of an effect's, which all experiments share
+  std::optional<effects::ParameterRef> effect;  ///< of an effect's
+  bool shared = false;                          ///< beside the material: one value for all experiments
   std::size_t experiment = 0;                   ///< else: which of the experiments
   std::size_t local = 0;                        ///< and which of its local quantities
   bool logarithmic = false;                     ///< the coordinate is the logarithm of the quantity
@@ -131,9 +132,9 @@ class Parametrisation {
                                            std::size_t experiment) const;
 
  private:
-  [[nodiscard]] std::optional<std::size_t> find(const effects::ParameterRef& effect) const;
-  void set_effects(const std::vector<experiments::LocalQuantity>& locals, const std::vector<double>& x,
-                   std::vector<double>& values) const;
+  [[nodiscard]] std::optional<std::size_t> find(const experiments::LocalQuantity& shared) const;
+  void set_shared(const std::vector<experiments::LocalQuantity>& locals, const std::vector<double>& x,
+                  std::vector<double>& values) const;
 
   model::ParameterValues<double> base_;
   std::vector<Coordinate> coordinates_;

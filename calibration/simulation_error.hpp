@@ -30,15 +30,15 @@ struct NumericalVariant {
 struct SimulationError {
   experiments::SharedError error;  ///< what goes into the covariance
   std::vector<NumericalVariant> variants;
-  std::size_t failed = 0;  ///< simulations of the study's own numerics without a result
-  std::vector<std::optional<mpm::SlumpResult>> runs;  ///< with the study's own numerics, likewise
+  std::size_t failed = 0;  ///< simulations with the numerics that were changed without a result
+  std::vector<std::optional<mpm::SlumpResult>> runs;  ///< with the numerics that were changed, likewise
 };
 
 /// Compares outlines of the tests that are fitted with those of one and two cells more across the radius and
-/// of nine points a cell. The differences of all variants, which share neither grid nor points with the base,
-/// are taken as they are for the error: half of their variance may be the variants' own, but an error common
-/// to all of them is not seen. Correlations are those of neighbouring places and times. Nothing of the data
-/// is used.
+/// of nine points a cell; where the study has reference numerics, with those, one and two cells fewer. The
+/// differences of all variants, which share neither grid nor points with the base, are taken as they are for
+/// the error: half of their variance may be the variants' own, but an error common to all of them is not
+/// seen. Correlations are those of neighbouring places and times. Nothing of the data is used.
 [[nodiscard]] tl::expected<SimulationError, FitFailure> measure_simulation_error(
     const datasets::Study& study, const model::Parameters<double>& parameters,
     const experiments::Simulate& simulate, int threads);

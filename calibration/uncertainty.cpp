@@ -238,7 +238,8 @@ std::vector<LocalEstimate> estimate_locals(const Problem& problem, const std::ve
   for (std::size_t k = problem.parametrisation().free().size(); k < coordinates.size(); ++k) {
     const Interval interval = interval_of(problem, x, uncertainty, k, std::nullopt);
     estimates.push_back({coordinates[k].name, interval.value, interval.std_error, interval.lower,
-                         interval.upper, interval.verdict, interval.words, coordinates[k].effect});
+                         interval.upper, interval.verdict, interval.words, coordinates[k].effect,
+                         coordinates[k].shared});
   }
   return estimates;
 }

@@ -25,7 +25,18 @@ std::string parameter_names() {
 struct Wanted {
   std::vector<ParameterId> material;
   std::vector<FreeEffect> effects;
+  std::vector<FreeMud> mud;
 };
+
+constexpr std::array<MudQuantity, 2> kMudQuantities{MudQuantity::overconsolidation_ratio,
+                                                    MudQuantity::void_ratio};
+
+std::optional<MudQuantity> find_mud_quantity(std::string_view name) {
+  for (const MudQuantity quantity : kMudQuantities) {
+    if (name_of(quantity) == name) return quantity;
+  }
+  return std::nullopt;
+}
 
 /// Those effects that tests of that kind can have.
 effects::Values<double> of_kind(effects::Values<double> effects, effects::TestKind kind) {
@@ -64,10 +75,12 @@ effects::ParameterRef read_effect_name(const TomlTable& fit, std::string_view ke
 }
 
 Wanted read_names(TomlTable& fit, std::string_view key, std::vector<ParameterId> defaults,
-                  const effects::Values<double>& effects) {
-  const std::string accepted = parameter_names() + effect_names(effects) + ", each once, at least one";
+                  const effects::Values<double>& effects, effects::TestKind kind) {
+  const bool slump = kind == effects::TestKind::slump;
+  const std::string accepted =
+      parameter_names() + (slump ? ", OCR0, e0" : "") + effect_names(effects) + ", each once, at least one";
   const auto names = fit.texts_if(key, accepted);
-  if (!names) return {std::move(defaults), {}};
+  if (!names) return {std::move(defaults), {}, {}};
   if (names->empty()) throw fit.error(key, "an empty list", accepted);
   Wanted wanted;
   for (std::size_t i = 0; i < names->size(); ++i) {
@@ -78,6 +91,8 @@ Wanted read_names(TomlTable& fit, std::string_view key, std::vector<ParameterId>
     }
     if (const auto parameter = model::find_parameter(name)) {
       wanted.material.push_back(*parameter);
+    } else if (const auto mud = slump ? find_mud_quantity(name) : std::nullopt) {
+      wanted.mud.push_back({*mud, std::nullopt, std::nullopt});
     } else {
       wanted.effects.push_back({read_effect_name(fit, key, name, effects, accepted), std::nullopt});
     }
@@ -156,6 +171,12 @@ void read_effect_bounds(TomlTable& table, const effects::Values<double>& effects
   }
 }
 
+void read_mud_bounds(TomlTable& table, FitSettings& settings) {
+  for (FreeMud& mud : settings.slump_mud) {
+    mud.bounds = read_bounds(table, name_of(mud.quantity), "-", Range::positive(100.0), 1.0);
+  }
+}
+
 void read_all_bounds(TomlTable& fit, const model::Parameters<double>& material,
                      const effects::Values<double>& effects, FitSettings& settings) {
   auto table = fit.table_if("bounds");
@@ -170,6 +191,7 @@ void read_all_bounds(TomlTable& fit, const model::Parameters<double>& material,
                          fmt::format("{} of [material]", parameter.key));
   }
   read_effect_bounds(*table, effects, settings);
+  read_mud_bounds(*table, settings);
   table->reject_unknown_keys();
 }
 
@@ -190,23 +212,64 @@ void read_all_priors(TomlTable& fit, FitSettings& settings) {
     settings.priors[static_cast<std::size_t>(parameter.id)] =
         Prior{parameter.to_si * mean, parameter.to_si * std_error};
   }
+  for (FreeMud& mud : settings.slump_mud) {
+    auto prior = table->table_if(name_of(mud.quantity));
+    if (!prior) continue;
+    mud.std_error = prior->number("std_error", Range::positive(100.0));
+    prior->reject_unknown_keys();
+  }
   table->reject_unknown_keys();
 }
 
 }  // namespace
+
+std::string_view name_of(MudQuantity quantity) {
+  return quantity == MudQuantity::void_ratio ? "e0" : "OCR0";
+}
+
+void check_free_mud(const Study& study) {
+  for (const FreeMud& mud : study.fit.slump_mud) {
+    const std::string_view key = mud.quantity == MudQuantity::void_ratio ? "void_ratio" : "ocr";
+    const auto fail = [&](std::string value, std::string accepted) -> void {
+      throw InputError(FilePlace{study.file}, fmt::format("[fit] slump, {}", name_of(mud.quantity)),
+                       std::move(value), std::move(accepted));
+    };
+    std::optional<double> first;
+    for (const SlumpTest& test : study.slump_tests) {
+      const std::optional<double> stated = stated_value(test.setup.mud, mud.quantity);
+      if (!stated) {
+        fail(fmt::format("{} gives undrained_strength_kPa, from which e0 follows", test.name),
+             "slump tests that give void_ratio");
+      }
+      if (first && *stated != *first) {
+        fail(fmt::format("tests start from different values: {:.6g}, and {:.6g} in {}", *first, *stated,
+                         test.name),
+             fmt::format("the same {} in all slump tests, which then move together", key));
+      }
+      first = stated;
+      if (mud.bounds && !(*stated >= mud.bounds->lower && *stated <= mud.bounds->upper)) {
+        fail(fmt::format("[{:.6g}, {:.6g}] of [fit.bounds] leaves out the start value {:.6g}",
+                         mud.bounds->lower, mud.bounds->upper, *stated),
+             fmt::format("an interval around the tests' {}", key));
+      }
+    }
+  }
+}
 
 FitSettings read_fit(TomlTable& root, const model::Parameters<double>& material,
                      const effects::Values<double>& effects) {
   FitSettings settings;
   auto fit = root.table_if("fit");
   if (!fit) return settings;
-  Wanted oedometer =
-      read_names(*fit, "oedometer", settings.oedometer, of_kind(effects, effects::TestKind::oedometer));
+  Wanted oedometer = read_names(*fit, "oedometer", settings.oedometer,
+                                of_kind(effects, effects::TestKind::oedometer), effects::TestKind::oedometer);
   settings.oedometer = std::move(oedometer.material);
   settings.oedometer_effects = std::move(oedometer.effects);
-  Wanted slump = read_names(*fit, "slump", settings.slump, of_kind(effects, effects::TestKind::slump));
+  Wanted slump = read_names(*fit, "slump", settings.slump, of_kind(effects, effects::TestKind::slump),
+                            effects::TestKind::slump);
   settings.slump = std::move(slump.material);
   settings.slump_effects = std::move(slump.effects);
+  settings.slump_mud = std::move(slump.mud);
   settings.slump_routes = read_routes(*fit, settings.slump_routes);
   constexpr std::array<std::string_view, 3> kGauges{"crs-rate", "fixed", "none"};
   constexpr std::array<Gauge, 3> kGaugeValues{Gauge::crs_rate, Gauge::fixed, Gauge::none};

@@ -55,8 +55,11 @@ SlumpTest read_slump_test(TomlTable table, TomlTable& root, Study& study, std::s
   test.setup.mould = read_mould(table.table("mould"), assumptions);
   test.setup.mud = read_mud(table.table("mud"), assumptions);
   test.setup.base = read_base(table, assumptions);
-  test.setup.numerics = read_numerics(root);
+  const StudyNumerics numerics = read_study_numerics(root);
+  test.setup.numerics = numerics.own;
+  test.reference = numerics.reference;
   check_cell_size(root, test.setup);
+  check_cell_size(root, test.best_setup());
   check_slab(table, study.material, test.setup);
   test.noise = read_slump_noise(table, assumptions);
   test.hold_out = table.boolean_if("hold_out").value_or(false);
@@ -67,6 +70,27 @@ SlumpTest read_slump_test(TomlTable table, TomlTable& root, Study& study, std::s
 }
 
 }  // namespace
+
+std::optional<double> stated_value(const mpm::Mud& mud, MudQuantity quantity) {
+  return quantity == MudQuantity::void_ratio ? mud.void_ratio : mud.overconsolidation_ratio;
+}
+
+mpm::SlumpSetup SlumpTest::best_setup() const {
+  mpm::SlumpSetup best = setup;
+  if (reference) best.numerics = *reference;
+  return best;
+}
+
+mpm::Mud with_values(mpm::Mud mud, const std::vector<FreeMud>& free, std::span<const double> values) {
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    if (free[k].quantity == MudQuantity::void_ratio) {
+      mud.void_ratio = values[k];
+    } else {
+      mud.overconsolidation_ratio = values[k];
+    }
+  }
+  return mud;
+}
 
 Study read_study(const std::filesystem::path& file, const ReadOptions& options) {
   const ReadText read = [&](const std::filesystem::path& path) { return read_text_file(path, options); };
@@ -87,7 +111,7 @@ Study parse_study(std::string text, const std::filesystem::path& file, const Rea
   Study study{file, std::move(note), read_material(root.table("material")), {}, {}, {}, {}, {}};
   study.effects = read_effects(root, study.material);
   study.fit = read_fit(root, study.material, study.effects);
-  static_cast<void>(read_numerics(root));  // checked also where no slump test uses it
+  static_cast<void>(read_study_numerics(root));  // checked also where no slump test uses it
   std::set<std::string> names;
   for (TomlTable& test : root.tables("oedometer")) {
     const FilePlace place = test.place();
@@ -100,6 +124,7 @@ Study parse_study(std::string text, const std::filesystem::path& file, const Rea
     study.slump_tests.push_back(read_slump_test(std::move(test), root, study, names, read_data));
     check_effects(study.effects, study.slump_tests.back().name, study.slump_tests.back().setup, place);
   }
+  check_free_mud(study);
   if (names.empty()) {
     throw InputError({file}, "study", "it has no test", "at least one [[oedometer]] or [[slump]]");
   }

@@ -5,7 +5,9 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "datasets/oedometer.hpp"
@@ -49,6 +51,18 @@ struct FreeEffect {
   std::optional<Bounds> bounds;  ///< SI; nothing: those of the catalogue
 };
 
+/// A quantity of the state that slump tests start from.
+enum class MudQuantity { overconsolidation_ratio, void_ratio };
+/// "OCR0", "e0".
+[[nodiscard]] std::string_view name_of(MudQuantity quantity);
+
+/// One that a fit moves, for all slump tests at once; they state the same value of it, where the fit starts.
+struct FreeMud {
+  MudQuantity quantity;
+  std::optional<Bounds> bounds;     ///< nothing: widely about the value stated
+  std::optional<double> std_error;  ///< of the value stated, where the study says how well it is known
+};
+
 /// How a slump fit searches on simulations.
 enum class SlumpRoute {
   bobyqa,  ///< NLopt's BOBYQA (COBYLA for a single parameter)
@@ -62,6 +76,7 @@ struct FitSettings {
                                             model::ParameterId::kappa, model::ParameterId::D_r};
   std::vector<FreeEffect> oedometer_effects;  ///< of effects that are on
   std::vector<FreeEffect> slump_effects;      ///< likewise
+  std::vector<FreeMud> slump_mud;             ///< each once
   std::vector<model::ParameterId> slump{model::ParameterId::I_v, model::ParameterId::C_1};
   std::vector<SlumpRoute> slump_routes{SlumpRoute::bobyqa};  ///< of fit-slump, each once, at least one
   Gauge gauge = Gauge::crs_rate;
@@ -139,6 +154,13 @@ struct SlumpNoise {
   double shared = 0.7e-3;   ///< the part of `outline` that neighbouring points and times share; < outline
 };
 
+/// What a test's mud states of a quantity; nothing where it follows from the strength.
+[[nodiscard]] std::optional<double> stated_value(const mpm::Mud& mud, MudQuantity quantity);
+
+/// A mud with other values of the quantities that a fit moves.
+[[nodiscard]] mpm::Mud with_values(mpm::Mud mud, const std::vector<FreeMud>& free,
+                                   std::span<const double> values);
+
 /// [[slump]], SI. The times of `setup` are those of `outlines`.
 struct SlumpTest {
   std::string name;
@@ -147,6 +169,12 @@ struct SlumpTest {
   mpm::SlumpSetup setup;
   SlumpNoise noise;
   bool hold_out;  ///< not fitted, only predicted
+  /// Numerics that those of `setup` stand in for, where the study has them: they judge, and what a fit
+  /// simulates is corrected to them.
+  std::optional<mpm::Numerics> reference = {};
+
+  /// The setup with the best numerics there are.
+  [[nodiscard]] mpm::SlumpSetup best_setup() const;
 };
 
 /// A whole study.

@@ -85,30 +85,52 @@ mpm::Mud read_mud(TomlTable mud, Assumptions& assumptions) {
   return result;
 }
 
+namespace {
+
+/// The keys that are there; the others stay.
+void read_into(TomlTable& numerics, mpm::Numerics& result) {
+  if (const auto size = numerics.number_if("cell_size_mm", kCellSize_mm)) result.cell_size = 1e-3 * *size;
+  if (const auto points = numerics.number_if("points_per_cell", {4.0, 100.0})) {
+    const double side = std::round(std::sqrt(*points));
+    if (side * side != *points) {
+      throw numerics.error("points_per_cell", fmt::format("{} is not a square number", *points),
+                           "4, 9, 16, ..., 100");
+    }
+    result.points_per_cell = static_cast<int>(*points);
+  }
+  if (const auto modulus = numerics.number_if("water_bulk_modulus_kPa", Range::positive(2.2e6))) {
+    result.water_bulk_modulus = 1e3 * *modulus;
+  }
+  result.courant = numerics.number_if("courant", Range::positive(1.0)).value_or(result.courant);
+  result.tolerance = numerics.number_if("tolerance", Range::positive(0.1)).value_or(result.tolerance);
+  result.inertia_scaling = numerics.number_if("inertia_scaling", {1.0, 1e6}).value_or(result.inertia_scaling);
+  result.background_viscosity =
+      numerics.number_if("background_viscosity_Pa_s", {0.0, 1000.0}).value_or(result.background_viscosity);
+  if (const auto scheme = numerics.choice_if("scheme", mpm::kSchemeNames)) {
+    result.scheme = static_cast<mpm::Scheme>(*scheme);
+  }
+}
+
+}  // namespace
+
 mpm::Numerics read_numerics(TomlTable& root) {
   mpm::Numerics result;
   auto numerics = root.table_if("numerics");
   if (!numerics) return result;
-  if (const auto size = numerics->number_if("cell_size_mm", kCellSize_mm)) result.cell_size = 1e-3 * *size;
-  if (const auto points = numerics->number_if("points_per_cell", {4.0, 100.0})) {
-    const double side = std::round(std::sqrt(*points));
-    if (side * side != *points) {
-      throw numerics->error("points_per_cell", fmt::format("{} is not a square number", *points),
-                            "4, 9, 16, ..., 100");
-    }
-    result.points_per_cell = static_cast<int>(*points);
-  }
-  if (const auto modulus = numerics->number_if("water_bulk_modulus_kPa", Range::positive(2.2e6))) {
-    result.water_bulk_modulus = 1e3 * *modulus;
-  }
-  result.courant = numerics->number_if("courant", Range::positive(1.0)).value_or(result.courant);
-  result.tolerance = numerics->number_if("tolerance", Range::positive(0.1)).value_or(result.tolerance);
-  result.inertia_scaling =
-      numerics->number_if("inertia_scaling", {1.0, 1e6}).value_or(result.inertia_scaling);
-  result.background_viscosity =
-      numerics->number_if("background_viscosity_Pa_s", {0.0, 1000.0}).value_or(result.background_viscosity);
-  if (const auto scheme = numerics->choice_if("scheme", mpm::kSchemeNames)) {
-    result.scheme = static_cast<mpm::Scheme>(*scheme);
+  read_into(*numerics, result);
+  numerics->reject_unknown_keys();
+  return result;
+}
+
+StudyNumerics read_study_numerics(TomlTable& root) {
+  StudyNumerics result;
+  auto numerics = root.table_if("numerics");
+  if (!numerics) return result;
+  read_into(*numerics, result.own);
+  if (auto reference = numerics->table_if("reference")) {
+    result.reference = result.own;
+    read_into(*reference, *result.reference);
+    reference->reject_unknown_keys();
   }
   numerics->reject_unknown_keys();
   return result;

@@ -48,6 +48,14 @@ class Assumptions {
 /// [numerics] of `root`, every key optional.
 [[nodiscard]] mpm::Numerics read_numerics(TomlTable& root);
 
+/// [numerics] of a study.
+struct StudyNumerics {
+  mpm::Numerics own;
+  std::optional<mpm::Numerics> reference =
+      {};  ///< [numerics.reference]: keys that it lacks are those of `own`
+};
+[[nodiscard]] StudyNumerics read_study_numerics(TomlTable& root);
+
 /// InputError where an elastic base is no wider than the mould, or softer than a simulation can follow.
 /// `parent` is the table that holds [base].
 void check_slab(TomlTable& parent, const model::Parameters<double>& material, const mpm::SlumpSetup& setup);

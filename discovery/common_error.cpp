@@ -34,11 +34,11 @@ Eigen::MatrixXd CommonError::as_read(Eigen::MatrixXd whitened) const {
   return whitened;
 }
 
-tl::expected<CommonError, calibration::FitFailure> common_error(const SlumpBasis& basis,
-                                                                const SlumpTests& tests) {
-  SlumpTests fitted;
-  std::copy_if(tests.begin(), tests.end(), std::back_inserter(fitted),
-               [](const auto& test) { return !test->held_out(); });
+namespace {
+
+/// The tests by the scheme of transfer that the study does not use.
+tl::expected<std::vector<std::optional<mpm::SlumpResult>>, calibration::FitFailure> by_other_scheme(
+    const SlumpBasis& basis, const SlumpTests& fitted) {
   std::vector<std::optional<mpm::SlumpResult>> other(fitted.size());
   std::vector<mpm::RunStatus> statuses(fitted.size(), mpm::RunStatus::ok);
   calibration::parallel_for(fitted.size(), basis.threads, [&](std::size_t i) {
@@ -57,8 +57,25 @@ tl::expected<CommonError, calibration::FitFailure> common_error(const SlumpBasis
       return tl::unexpected(calibration::FitFailure{"interrupted", true});
     }
   }
-  std::vector<const std::vector<std::optional<mpm::SlumpResult>>*> variants{&other};
+  return other;
+}
+
+}  // namespace
+
+tl::expected<CommonError, calibration::FitFailure> common_error(const SlumpBasis& basis,
+                                                                const SlumpTests& tests) {
+  SlumpTests fitted;
+  std::copy_if(tests.begin(), tests.end(), std::back_inserter(fitted),
+               [](const auto& test) { return !test->held_out(); });
+  std::vector<const std::vector<std::optional<mpm::SlumpResult>>*> variants;
   for (const calibration::NumericalVariant& variant : basis.error.variants) variants.push_back(&variant.runs);
+  std::vector<std::optional<mpm::SlumpResult>> other;
+  if (!calibration::has_reference(basis.study)) {
+    auto runs = by_other_scheme(basis, fitted);
+    if (!runs) return tl::unexpected(runs.error());
+    other = std::move(*runs);
+    variants.push_back(&other);
+  }
   const auto all_ran = [](const std::vector<std::optional<mpm::SlumpResult>>& runs) {
     return std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.has_value(); });
   };

@@ -28,9 +28,9 @@ class CommonError {
   Eigen::VectorXd sizes_;  ///< singular values of Q
 };
 
-/// By the variants of the simulations' error that were measured, and by the other scheme of transfer, which
-/// is simulated at the basis' start: codes differ by it, and so may data that come from one. A variant that
-/// failed in some test gives no direction.
+/// By the variants of the simulations' error that were measured, and, where the study names no reference
+/// numerics, by the other scheme of transfer, which is simulated at the basis' start: codes differ by it, and
+/// so may data that come from one. A variant that failed in some test gives no direction.
 [[nodiscard]] tl::expected<CommonError, calibration::FitFailure> common_error(const SlumpBasis& basis,
                                                                               const SlumpTests& tests);
 

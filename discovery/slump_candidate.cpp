@@ -20,9 +20,10 @@ SlumpCandidate slump_candidate(const SlumpBasis& basis, const std::vector<const 
       if (effect->parameters[k].searched()) free.push_back({effect, k});
     }
   }
-  for (const auto& test : study.slump_tests) {
+  for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
     candidate.tests.push_back(std::make_shared<experiments::SlumpExperiment>(
-        test, basis.simulate, basis.error.error, candidate.effects, free));
+        study.slump_tests[i], experiments::SlumpModel{basis.simulate, basis.error.error, candidate.effects,
+                                                      free, study.fit.slump_mud, basis.corrections.of(i)}));
   }
   const calibration::Experiments all(candidate.tests.begin(), candidate.tests.end());
   candidate.problem = std::make_shared<calibration::Problem>(

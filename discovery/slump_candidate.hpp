@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/reference_numerics.hpp"
 #include "calibration/secant_fit.hpp"
 #include "calibration/simulation_error.hpp"
 #include "discovery/candidate.hpp"
@@ -19,6 +20,7 @@ struct SlumpBasis {
   std::array<std::optional<datasets::Prior>, model::kParameterCount> priors;  ///< as from oedometer tests
   experiments::Simulate simulate;
   calibration::SimulationError error;
+  calibration::Corrections corrections;  ///< of simulations to the study's reference numerics
   int threads = 1;
   calibration::OptimiserControl control;
 };

@@ -26,6 +26,7 @@ using Effects = std::vector<const effects::Effect*>;
 
 constexpr int kBaseEvaluations = 7;
 constexpr int kTrialEvaluations = 4;
+constexpr int kCorrectedEvaluations = 2;
 constexpr double kShapeMove = 0.4;  // of a logarithm, for the difference by a shape
 
 class SlumpSearch {
@@ -35,6 +36,7 @@ class SlumpSearch {
         options_(options),
         basis_{study,
                options.knowledge ? options.knowledge->parameters : study.material,
+               {},
                {},
                {},
                {},
@@ -51,7 +53,8 @@ class SlumpSearch {
   tl::expected<SlumpDiscovery, FitFailure> run() {
     if (auto failure = fit_base()) return tl::unexpected(*failure);
     if (auto failure = score_all()) return tl::unexpected(*failure);
-    if (!meets_noise(found_.base.candidate)) {
+    found_.by_gain = calibration::has_reference(study_);
+    if (!meets_noise(found_.base.candidate) || (found_.by_gain && promises_much())) {
       if (auto failure = try_best()) return tl::unexpected(*failure);
       weigh(found_, null_);
       if (auto failure = try_pairs()) return tl::unexpected(*failure);
@@ -83,6 +86,10 @@ class SlumpSearch {
     tell(0.15, "fit of the base");
     SlumpCandidate bare = slump_candidate(basis_, {});
     const std::vector<double> start = bare.problem->parametrisation().start();
+    auto corrections = corrections_at(bare, start);
+    if (!corrections) return corrections.error();
+    basis_.corrections = std::move(*corrections);
+    bare = slump_candidate(basis_, {});
     const auto at = bare.problem->linearise(start);
     if (!at) return FitFailure{at.error().message, at.error().interrupted};
     know(bare, *at);
@@ -95,6 +102,10 @@ class SlumpSearch {
     base.at.residuals = common_.whitened(base.at.residuals);
     base.at.jacobian = common_.whitened(base.at.jacobian);
     if (auto failure = minimise(base, kBaseEvaluations)) return failure;
+    if (auto failure = correct(base, kTrialEvaluations)) return failure;
+    for (std::size_t i = 0; i < base.tests.size() && basis_.corrections.any(); ++i) {
+      basis_.corrections.tests[i] = base.tests[i]->correction();
+    }
     found_.base.candidate = std::move(base);
     return std::nullopt;
   }
@@ -109,6 +120,44 @@ class SlumpSearch {
     candidate.at = std::move(fit.at);
     conclude(candidate, common_.as_read(candidate.at.residuals));
     return std::nullopt;
+  }
+
+  /// From simulations to the study's reference numerics at x.
+  [[nodiscard]] tl::expected<calibration::Corrections, FitFailure> corrections_at(
+      const SlumpCandidate& candidate, const std::vector<double>& x) const {
+    const auto& parametrisation = candidate.problem->parametrisation();
+    std::vector<std::vector<double>> locals;
+    for (const auto& test : candidate.tests) locals.push_back(parametrisation.local_of(*test, x));
+    return calibration::measure_corrections(study_, candidate.tests, *parametrisation.at(x), locals,
+                                            basis_.threads);
+  }
+
+  /// Corrects a candidate at its answer, where the study has reference numerics, and goes on from there.
+  std::optional<FitFailure> correct(SlumpCandidate& candidate, int evaluations) const {
+    if (!basis_.corrections.any()) return std::nullopt;
+    auto corrections = corrections_at(candidate, candidate.at.coordinates);
+    if (!corrections) return corrections.error();
+    SlumpBasis basis = basis_;
+    basis.corrections = std::move(*corrections);
+    SlumpCandidate corrected = slump_candidate(basis, candidate.added);
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(candidate.at.residuals.size());
+    Eigen::Index row = 0;
+    for (std::size_t i = 0; i < candidate.tests.size(); ++i) {
+      if (candidate.tests[i]->held_out()) continue;
+      const auto& test = *corrected.tests[i];
+      const auto count = static_cast<Eigen::Index>(test.measured().size());
+      experiments::Values more = test.correction();
+      const experiments::Values& before = candidate.tests[i]->correction();
+      if (more.empty()) more.assign(test.mould_gone().size(), 0.0);
+      for (std::size_t p = 0; p < before.size(); ++p) more[p] -= before[p];
+      const experiments::Values seen = test.decorrelated(more);
+      change.segment(row, count) = Eigen::Map<const Eigen::VectorXd>(seen.data(), count);
+      row += count;
+    }
+    corrected.at = std::move(candidate.at);
+    corrected.at.residuals += common_.whitened(std::move(change));
+    candidate = std::move(corrected);
+    return minimise(candidate, evaluations);
   }
 
   /// Whitened residuals at x.
@@ -201,6 +250,13 @@ class SlumpSearch {
     return std::nullopt;
   }
 
+  /// Whether noise would hardly let an effect's score be as large as the largest.
+  [[nodiscard]] bool promises_much() const {
+    double most = 0.0;
+    for (const SlumpSignature& one : found_.signatures) most = std::max(most, gain_of(one.signature));
+    return most > 0.0 && null_.p_value(most) < kRejects;
+  }
+
   [[nodiscard]] const SlumpSignature* signature(const effects::Effect* effect) const {
     for (const SlumpSignature& one : found_.signatures) {
       if (one.effect == effect) return &one;
@@ -249,6 +305,7 @@ class SlumpSearch {
       if (auto failure = learn_shapes(candidate)) return failure;
       if (auto failure = minimise(candidate, kTrialEvaluations)) return failure;
     }
+    if (auto failure = correct(candidate, kCorrectedEvaluations)) return failure;
     SlumpTrial trial;
     trial.candidate = std::move(candidate);
     found_.trials.push_back(std::move(trial));
@@ -309,8 +366,8 @@ class SlumpSearch {
     std::vector<tl::expected<mpm::SlumpResult, experiments::PredictionFailure>> runs(candidate.tests.size());
     calibration::parallel_for(runs.size(), basis_.threads, [&](std::size_t i) {
       const auto& test = *candidate.tests[i];
-      runs[i] = test.simulate(*candidate.parameters,
-                              candidate.problem->parametrisation().local_of(test, candidate.at.coordinates));
+      runs[i] = test.simulate_at_best(*candidate.parameters, candidate.problem->parametrisation().local_of(
+                                                                 test, candidate.at.coordinates));
     });
     double squares = 0.0;
     double count = 0.0;

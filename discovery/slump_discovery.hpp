@@ -46,6 +46,9 @@ struct SlumpSignature {
 struct SlumpDiscovery {
   Verdict verdict = Verdict::adequate;
   SlumpTrial base;
+  /// Whether an effect's gain can reject the base, and not the size of the misfit alone: where the study has
+  /// reference numerics.
+  bool by_gain = false;
   /// That noise lets some effect gain as much as those that were fitted; NaN where none was.
   double p_value = std::numeric_limits<double>::quiet_NaN();
   double scale = 1.0;  ///< of the residuals' variance, by the best candidate; at least 1

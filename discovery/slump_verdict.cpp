@@ -89,7 +89,12 @@ void weigh(SlumpDiscovery& found, const ScoreTest& null) {
 }
 
 void decide(SlumpDiscovery& found) {
-  found.base.adequacy.meets_noise = found.base.adequate = meets_noise(found.base.candidate);
+  found.base.adequacy.meets_noise = meets_noise(found.base.candidate);
+  // The error of simulations is a measure, not a distribution. Where it is as large as the noise, some effect
+  // of the catalogue nearly always improves the fit by more than noise would: then the size of the misfit
+  // alone may reject the base. A reference's is a small part of the noise.
+  found.base.adequate = found.base.adequacy.meets_noise &&
+                        !(found.by_gain && found.base.adequacy.p_value < kRejects && !found.trials.empty());
   if (found.base.adequate) {
     found.verdict = Verdict::adequate;
     return;

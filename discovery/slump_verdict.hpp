@@ -6,9 +6,7 @@
 
 namespace isotach::discovery {
 
-/// Whether every fitted test is met to within its noise and the error of the simulations. By the size of the
-/// misfit alone: that error is a measure, not a distribution, and within it some effect of the catalogue
-/// nearly always improves the fit by more than noise would.
+/// Whether every fitted test is met to within its noise and the error of the simulations.
 [[nodiscard]] bool meets_noise(const SlumpCandidate& candidate);
 
 /// The scale of the residuals' variance, BIC by it, which the trials are sorted by, and whether each is

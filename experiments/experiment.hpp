@@ -25,8 +25,8 @@ struct PredictionFailure {
 /// Values aligned with the data.
 using Values = std::vector<double>;
 
-/// A quantity that a fit may move along with the material: K0 or OCR of one test's start, or a parameter of
-/// an effect, which all tests share.
+/// A quantity that a fit may move along with the material: K0 or OCR of one test's start, the state that a
+/// mud has in all tests, or a parameter of an effect, which all tests share.
 struct LocalQuantity {
   std::string name;  ///< "K0", "OCR", "ring_friction.mu"
   double value;      ///< as the study gives it (SI)
@@ -34,7 +34,10 @@ struct LocalQuantity {
   double upper;
   bool logarithmic;                 ///< moved as its logarithm
   std::optional<double> std_error;  ///< of the prior around `value`, of the logarithm where that moves
-  std::optional<effects::ParameterRef> effect{};  ///< shared by all tests that have one of that name
+  std::optional<effects::ParameterRef> effect{};  ///< of which it is a parameter
+  bool of_all = false;  ///< one value for all tests that have one of that name, as an effect's always is
+
+  [[nodiscard]] bool shared() const { return of_all || effect.has_value(); }
 };
 
 /// That of an effect's parameter (SI), bounded as the catalogue has it.

@@ -20,17 +20,23 @@ namespace isotach::experiments {
 using Simulate = std::function<tl::expected<mpm::SlumpResult, mpm::RunFailure>(
     const std::string& test, const model::Parameters<double>& parameters, const mpm::SlumpSetup& setup)>;
 
+/// What a slump test's simulations are made with.
+struct SlumpModel {
+  Simulate simulate = {};                        ///< may be empty where nothing is simulated
+  SharedError simulation_error = {};             ///< of the simulations, as corrected
+  effects::Values<double> effects = {};          ///< those of slump tests act
+  std::vector<effects::ParameterRef> free = {};  ///< of the effects, local quantities that all tests share
+  std::vector<datasets::FreeMud> mud = {};       ///< likewise, and before them
+  Values correction = {};                        ///< (m) of each measured point's distance; empty: none
+};
+
 /// What is compared is the signed distance of each measured point to the simulated outline of the same time,
 /// averaged over stations. What a fit sees are these means decorrelated: multiplied by the inverse of the
 /// Cholesky factor of their covariance, so that each has unit variance whatever neighbours share. What is
 /// "measured" is zero.
 class SlumpExperiment final : public Experiment {
  public:
-  /// `simulate` may be empty where nothing is predicted; `simulation_error` is that of the simulations.
-  /// Those of `effects` that are of slump tests act; `free` parameters of them are local quantities, which
-  /// all tests share.
-  SlumpExperiment(datasets::SlumpTest test, Simulate simulate, const SharedError& simulation_error = {},
-                  effects::Values<double> effects = {}, std::vector<effects::ParameterRef> free = {});
+  explicit SlumpExperiment(datasets::SlumpTest test, SlumpModel model = {});
 
   [[nodiscard]] const std::string& name() const override { return test_.name; }
   [[nodiscard]] bool held_out() const override { return test_.hold_out; }
@@ -49,13 +55,20 @@ class SlumpExperiment final : public Experiment {
   /// The test's effects with the free parameters as `local` has them.
   [[nodiscard]] tl::expected<effects::Values<double>, PredictionFailure> effects_at(
       std::span<const double> local) const;
+  /// The test's mud with the free quantities as `local` has them.
+  [[nodiscard]] mpm::Mud mud_at(std::span<const double> local) const;
   /// The simulation behind predict().
   [[nodiscard]] tl::expected<mpm::SlumpResult, PredictionFailure> simulate(
+      const model::Parameters<double>& parameters, std::span<const double> local) const;
+  /// That with the best numerics there are, which needs no correction.
+  [[nodiscard]] tl::expected<mpm::SlumpResult, PredictionFailure> simulate_at_best(
       const model::Parameters<double>& parameters, std::span<const double> local) const;
   /// Signed distance (m) of each measured point from a simulation's outlines.
   [[nodiscard]] Values distances(const mpm::SlumpResult& result) const;
   /// Distances in units of the noise of their points, as the study states it.
   [[nodiscard]] Values in_noise(const Values& distances) const;
+  /// By how much a simulation's distances are corrected; empty where they are not.
+  [[nodiscard]] const Values& correction() const { return model_.correction; }
   /// Distances as a fit sees them.
   [[nodiscard]] Values decorrelated(const Values& distances) const;
   /// For each point, whether the rim had left the mud by then.
@@ -65,10 +78,12 @@ class SlumpExperiment final : public Experiment {
   [[nodiscard]] const std::vector<OutlineStation>& stations() const { return stations_; }
 
  private:
+  [[nodiscard]] tl::expected<mpm::SlumpResult, PredictionFailure> simulate(
+      mpm::SlumpSetup setup, const model::Parameters<double>& parameters,
+      std::span<const double> local) const;
+
   datasets::SlumpTest test_;
-  Simulate simulate_;
-  effects::Values<double> effects_;
-  std::vector<effects::ParameterRef> free_;
+  SlumpModel model_;
   std::vector<double> point_noise_;
   std::vector<bool> mould_gone_;
   std::vector<std::size_t> outline_index_;

@@ -164,8 +164,12 @@ Page calibration_report(const RunInfo& run, const datasets::Study& study, const 
   add_data_note(page, study);
   add_slump_fit_facts(page, calibration.slump);
   page.table(parameter_table(estimates, "Parameters, each from the fit that moved it.", Meanings::left_out));
-  if (Table effects = effect_table(calibration.oedometer); !effects.rows.empty()) {
+  if (Table effects = effect_table(calibration.oedometer.effects); !effects.rows.empty()) {
     page.table(std::move(effects));
+  }
+  if (Table moved = start_estimate_table(calibration.slump.result); !moved.rows.empty()) {
+    moved.caption = "Effects and mud of the slump tests that were fitted.";
+    page.table(std::move(moved));
   }
   if (Table moved = start_estimate_table(calibration.oedometer.result); !moved.rows.empty()) {
     page.table(std::move(moved));

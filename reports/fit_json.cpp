@@ -25,14 +25,14 @@ ordered_json parameters_json(const std::vector<calibration::ParameterEstimate>& 
   return json;
 }
 
-ordered_json effect_parameters_json(const std::vector<calibration::LocalEstimate>& estimates) {
+ordered_json shared_estimates_json(const std::vector<calibration::LocalEstimate>& estimates) {
   ordered_json json = ordered_json::object();
   for (const calibration::LocalEstimate& si : estimates) {
-    if (!si.effect) continue;
+    if (!si.shared()) continue;
     const calibration::LocalEstimate estimate = in_key_unit(si);
     json[estimate.name] = {
         {"value", json_number(estimate.value)},
-        {"unit", si.effect->info().unit},
+        {"unit", si.effect ? si.effect->info().unit : std::string_view("-")},
         {"std_error", json_number(estimate.std_error)},
         {"ci95", ordered_json::array({json_number(estimate.ci95_lower), json_number(estimate.ci95_upper)})},
         {"verdict", calibration::name_of(estimate.verdict)},
@@ -97,7 +97,7 @@ ordered_json route_json(const calibration::FitResult& result, const calibration:
 ordered_json fit_json(const calibration::FitResult& result) {
   ordered_json json;
   json["parameters"] = parameters_json(result.estimates);
-  json["parameters"].update(effect_parameters_json(result.local_estimates));
+  json["parameters"].update(shared_estimates_json(result.local_estimates));
   json["adequate"] = result.adequate;
   json["gauge"] = gauge_json(result);
   json["null_directions"] = ordered_json::array();

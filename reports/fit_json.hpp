@@ -14,7 +14,7 @@ namespace isotach::reports {
 [[nodiscard]] nlohmann::ordered_json parameters_json(
     const std::vector<calibration::ParameterEstimate>& estimates);
 /// The same of the parameters of effects that a fit moved, under "ring_friction.mu".
-[[nodiscard]] nlohmann::ordered_json effect_parameters_json(
+[[nodiscard]] nlohmann::ordered_json shared_estimates_json(
     const std::vector<calibration::LocalEstimate>& estimates);
 /// One number for each coordinate, under its name ("ln kappa"); null where there is none.
 [[nodiscard]] nlohmann::ordered_json by_coordinate(const calibration::FitResult& result,

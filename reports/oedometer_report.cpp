@@ -100,7 +100,7 @@ Page oedometer_report(const RunInfo& run, const datasets::Study& study, const Oe
   add_data_note(page, study);
   add_oedometer_facts(page, fit);
   page.table(parameter_table(used_parameters(result), "Parameters.", Meanings::left_out));
-  if (Table effects = effect_table(fit); !effects.rows.empty()) page.table(std::move(effects));
+  if (Table effects = effect_table(fit.effects); !effects.rows.empty()) page.table(std::move(effects));
   if (Table starts = start_estimate_table(result); !starts.rows.empty()) page.table(std::move(starts));
   page.figure(overview_figure(views));
   add_sections(page, study, fit, views, {});

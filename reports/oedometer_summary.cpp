@@ -213,12 +213,12 @@ void add_oedometer_facts(Page& page, const OedometerFit& fit) {
   if (fit.assessment && !fit.assessment->integrators.empty()) page.fact("Integrators", integrator_text(fit));
 }
 
-Table effect_table(const calibration::OedometerFit& fit) {
+Table effect_table(const effects::Values<double>& effects) {
   using enum Alignment;
   Table table{.caption = "Effects that the model has.",
               .header = {"Effect", "Parameters", "Enters at", "Equation", "Meaning"},
               .alignment = {left, left, left, left, left}};
-  for (const auto& one : fit.effects.chosen()) {
+  for (const auto& one : effects.chosen()) {
     std::string parameters;
     for (std::size_t i = 0; i < one.effect->parameters.size(); ++i) {
       const auto& parameter = one.effect->parameters[i];

@@ -27,7 +27,7 @@ void add_oedometer_verdicts(Page& page, const calibration::OedometerFit& fit);
 void add_oedometer_facts(Page& page, const calibration::OedometerFit& fit);
 
 /// The effects that the model has, at the answer; without rows where it has none.
-[[nodiscard]] Table effect_table(const calibration::OedometerFit& fit);
+[[nodiscard]] Table effect_table(const effects::Values<double>& effects);
 /// Parameters of effects and quantities of tests' starts that were fitted; without rows where none was.
 [[nodiscard]] Table start_estimate_table(const calibration::FitResult& result);
 

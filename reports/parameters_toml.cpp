@@ -134,6 +134,18 @@ std::string render_effects(const FittedEffects& fit) {
   return text;
 }
 
+/// What the fit made of the tests' mud, which is no part of [material].
+std::vector<std::string> mud_notes(const calibration::FitResult& result) {
+  std::vector<std::string> notes;
+  for (const auto& estimate : result.local_estimates) {
+    if (!estimate.of_all || estimate.effect) continue;
+    notes.push_back(fmt::format(
+        "The slump tests' mud, fitted: {} = {:.5g} +- {:.2g} ({}); goes into [slump.mud].", estimate.name,
+        estimate.value, estimate.std_error, calibration::name_of(estimate.verdict)));
+  }
+  return notes;
+}
+
 constexpr std::string_view kByOedometer = "fitted to the oedometer tests";
 constexpr std::string_view kBySlump = "fitted to the slump tests";
 
@@ -152,7 +164,7 @@ std::string parameters_toml(const RunInfo& run, const calibration::OedometerFit&
 }
 
 std::string parameters_toml(const RunInfo& run, const calibration::SlumpFit& fit) {
-  return render(run, all_by(fit.result, kBySlump), fit.result.parameters->lode(), {}) +
+  return render(run, all_by(fit.result, kBySlump), fit.result.parameters->lode(), mud_notes(fit.result)) +
          render_effects(effects_of(fit.effects, fit.result));
 }
 
@@ -161,8 +173,9 @@ std::string parameters_toml(const RunInfo& run, const calibration::Calibration& 
   for (const ParameterEstimate& estimate : combined_estimates(calibration)) {
     origins.push_back({estimate, is_free(calibration.slump.result, estimate.id) ? kBySlump : kByOedometer});
   }
-  return render(run, origins, calibration.slump.result.parameters->lode(),
-                {gauge_sentence(calibration.oedometer.result)}) +
+  std::vector<std::string> notes = mud_notes(calibration.slump.result);
+  notes.insert(notes.begin(), gauge_sentence(calibration.oedometer.result));
+  return render(run, origins, calibration.slump.result.parameters->lode(), notes) +
          render_effects(merged(effects_of(calibration.oedometer.effects, calibration.oedometer.result),
                                effects_of(calibration.slump.effects, calibration.slump.result),
                                effects::TestKind::slump));

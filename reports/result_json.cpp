@@ -26,7 +26,7 @@ ordered_json slump_fit_json(const datasets::Study& study, const calibration::Slu
     test["rms_mm"] = json_number(1e3 * comparison.rms);
     test["rms_mould_gone_mm"] = json_number(1e3 * comparison.rms_mould_gone);
     test["data"] = data_name(read.data, study.file);
-    test["simulation"] = slump_json(read.setup, comparison.simulation);
+    test["simulation"] = slump_json(read.best_setup(), comparison.simulation);
     json["tests"].push_back(std::move(test));
   }
   json["routes"][0]["simulations"] = fit.result.main.simulations;
@@ -35,6 +35,12 @@ ordered_json slump_fit_json(const datasets::Study& study, const calibration::Slu
     json["routes"].back()["simulations"] = route.simulations;
   }
   json["rms_mould_gone_mm"] = json_number(1e3 * fit.rms_mould_gone);
+  json["reference_numerics"] = nullptr;
+  if (fit.corrections.any()) {
+    json["reference_numerics"] = {{"correction_mm", json_number(1e3 * fit.corrections.outline)},
+                                  {"correction_lifting_mm", json_number(1e3 * fit.corrections.lifting)},
+                                  {"tests_failed", fit.corrections.failed}};
+  }
   json["simulations"] = fit.runs.total();
   json["simulations_by_status"] = ordered_json::object();
   for (std::size_t i = 0; i < mpm::kRunStatusCount; ++i) {
@@ -73,7 +79,7 @@ ordered_json result_json(const RunInfo& run, const datasets::Study& study,
   append(warnings, calibration.slump.result.warnings, "slump fit: ");
   ordered_json json = result_head(run, "ok", warnings);
   json["parameters"] = parameters_json(combined_estimates(calibration));
-  json["parameters"].update(effect_parameters_json(calibration.oedometer.result.local_estimates));
+  json["parameters"].update(shared_estimates_json(calibration.oedometer.result.local_estimates));
   json["adequate"] = calibration.oedometer.result.adequate && calibration.slump.result.adequate;
   json["settled"] = calibration.settled;
   json["rounds"] = ordered_json::array();

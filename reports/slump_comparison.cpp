@@ -230,7 +230,7 @@ Page slump_comparison_report(const RunInfo& run, std::span<const ComparedSlump> 
 
   page.section("Start and numerics");
   std::vector<NamedRun> runs;
-  for (const ComparedSlump* slump : done) runs.push_back({slump->name, &slump->test.setup, &*slump->result});
+  for (const ComparedSlump* slump : done) runs.push_back({slump->name, slump->test.setup, &*slump->result});
   page.table(start_table(runs));
   page.table(budget_table(runs));
   page.paragraph(numerics_text(runs.front()));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/limits.hpp"
 #include "reports/discovery_parts.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/json_number.hpp"
@@ -41,9 +42,13 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
   using discovery::Verdict;
   switch (found.verdict) {
     case Verdict::adequate:
-      page.verdict(Tone::good,
-                   "Slumps: the model suffices. Every test is met to within its noise and the error of the "
-                   "simulations; finer cells may tell more.");
+      page.verdict(
+          Tone::good,
+          found.by_gain
+              ? "Slumps: the model suffices. Every test is met to within its noise, and no effect of "
+                "the catalogue improves the fit more than noise would."
+              : "Slumps: the model suffices. Every test is met to within its noise and the error of "
+                "the simulations; finer cells may tell more.");
       return;
     case Verdict::named: {
       const SlumpTrial& best = found.trials[*found.chosen];
@@ -218,9 +223,14 @@ void add_slump_discovery(Page& page, const SlumpDiscovery& found) {
   page.section("Discovery: slump tests");
   page.paragraph(fmt::format(
       "The base was fitted to the tests that are not held out, {} simulations in all. It is rejected where a "
-      "test is missed by more than {} times its noise, the error of the simulations included; then effects "
+      "test is missed by more than {} times its noise, the error of the simulations included{}; then effects "
       "are fitted, and a name needs what the conditions below say. Tests held out take no part in any of it.",
-      found.simulations, calibration::kAdequate));
+      found.simulations, calibration::kAdequate,
+      found.by_gain
+          ? fmt::format(", or where noise would let some effect gain as much as one does in less than "
+                        "{} of cases (simulations are corrected to reference numerics)",
+                        discovery::kRejects)
+          : " (by reference numerics, which the study does not name, smaller misfits would tell)"));
   page.table(place_table(found));
   add_outlines(page, found);
   page.table(trial_table(found));

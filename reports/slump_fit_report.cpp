@@ -10,6 +10,7 @@
 #include "reports/estimates.hpp"
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
+#include "reports/oedometer_summary.hpp"
 #include "reports/slump_map_section.hpp"
 #include "reports/slump_tables.hpp"
 #include "reports/units.hpp"
@@ -31,7 +32,7 @@ std::vector<NamedRun> runs_of(const SlumpFit& fit) {
   std::vector<NamedRun> runs;
   for (const SlumpComparison& comparison : fit.comparisons) {
     runs.push_back(
-        {comparison.experiment->name(), &comparison.experiment->test().setup, &comparison.simulation});
+        {comparison.experiment->name(), comparison.experiment->test().best_setup(), &comparison.simulation});
   }
   return runs;
 }
@@ -133,6 +134,10 @@ std::string C_1_sentence(const SlumpFit& fit) {
       format_number(C_1.ci95_lower, 3), format_number(C_1.ci95_upper, 3), format_number(100.0 * change, 2));
 }
 
+std::string_view scheme_name(const mpm::Numerics& numerics) {
+  return mpm::kSchemeNames[static_cast<std::size_t>(numerics.scheme)];
+}
+
 }  // namespace
 
 void add_slump_fit_verdicts(Page& page, const SlumpFit& fit) {
@@ -149,6 +154,18 @@ void add_slump_fit_facts(Page& page, const SlumpFit& fit) {
       fmt::format("{} mm root mean square from when the rim had left the mud, all {} tests, held-out ones "
                   "included",
                   millimetres(fit.rms_mould_gone), fit.comparisons.size()));
+  if (!fit.comparisons.empty() && fit.corrections.any()) {
+    const mpm::Numerics& quick = fit.comparisons.front().experiment->test().setup.numerics;
+    const mpm::Numerics& best = fit.comparisons.front().experiment->test().best_setup().numerics;
+    page.fact(
+        "Reference numerics",
+        fmt::format("cells of {} mm, {} scheme: comparisons and figures are by these. What the fit "
+                    "simulates, cells of {} mm, {} scheme, is corrected to them at the answer, by {} mm "
+                    "root mean square ({} mm while lifting)",
+                    millimetres(best.cell_size), scheme_name(best), millimetres(quick.cell_size),
+                    scheme_name(quick), millimetres(fit.corrections.outline),
+                    millimetres(fit.corrections.lifting)));
+  }
   page.fact("Simulations", fmt::format("{} by the material point method, cells of {} mm: {}",
                                        fit.runs.total(), millimetres(cell_size), status_list(fit.runs)));
 }
@@ -198,6 +215,8 @@ Page slump_fit_report(const RunInfo& run, const datasets::Study& study, const Sl
   add_data_note(page, study);
   add_slump_fit_facts(page, fit);
   page.table(parameter_table(fit.result.estimates, "Parameters.", Meanings::shown));
+  if (!fit.result.local_estimates.empty()) page.table(start_estimate_table(fit.result));
+  if (!fit.effects.empty()) page.table(effect_table(fit.effects));
   add_slump_fit_section(page, study, fit);
   return page;
 }

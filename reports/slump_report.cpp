@@ -190,7 +190,7 @@ Page slump_report(const RunInfo& run, const datasets::SlumpFile& test, const Slu
   page.figures(extent_figure(result), energy_figure(result));
   add_fields(page, test, result);
   page.section("Material, start and numerics");
-  const std::vector<NamedRun> runs{{"this\u00a0run", &test.setup, &result}};
+  const std::vector<NamedRun> runs{{"this\u00a0run", test.setup, &result}};
   page.table(material_table(test.material));
   page.table(start_table(runs));
   page.paragraph(numerics_text(runs.front()));

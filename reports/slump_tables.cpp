@@ -38,7 +38,7 @@ Table start_table(std::span<const NamedRun> runs) {
                          "p_B0 (kPa)", "p′ (kPa)", "C_u (kPa)"},
               .alignment = {left, right, right, right, right, left, right, right, right, right, right}};
   for (const NamedRun& run : runs) {
-    const mpm::Mould& mould = run.setup->mould;
+    const mpm::Mould& mould = run.setup.mould;
     const mpm::InitialState& initial = run.result->initial;
     table.rows.push_back({run.name, format_number(kMillimetres * mould.diameter, 3),
                           format_number(kMillimetres * mould.fill_height, 3),
@@ -97,7 +97,7 @@ Table budget_table(std::span<const NamedRun> runs) {
 }
 
 std::string numerics_text(const NamedRun& run) {
-  const mpm::Numerics& numerics = run.setup->numerics;
+  const mpm::Numerics& numerics = run.setup.numerics;
   return fmt::format(
       "Axisymmetric material point method, explicit, undrained: cells of {} mm ({} mm asked for; they divide "
       "the "

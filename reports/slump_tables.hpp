@@ -14,7 +14,7 @@ namespace isotach::reports {
 /// One run with the name it has in a table.
 struct NamedRun {
   std::string name;
-  const mpm::SlumpSetup* setup;
+  mpm::SlumpSetup setup;
   const mpm::SlumpResult* result;
 };
 

@@ -29,6 +29,7 @@ datasets::Study with_numerics(datasets::Study study, mpm::Scheme scheme, double 
   for (datasets::SlumpTest& test : study.slump_tests) {
     test.setup.numerics.scheme = scheme;
     test.setup.numerics.cell_size = cell_size;
+    test.reference.reset();
   }
   return study;
 }
@@ -68,7 +69,7 @@ Distances compare(const std::vector<SlumpExperiment>& tests, const model::Parame
 
 std::vector<SlumpExperiment> experiments_of(const datasets::Study& study) {
   std::vector<SlumpExperiment> tests;
-  for (const datasets::SlumpTest& test : study.slump_tests) tests.emplace_back(test, nullptr);
+  for (const datasets::SlumpTest& test : study.slump_tests) tests.emplace_back(test);
   return tests;
 }
 

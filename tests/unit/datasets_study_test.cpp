@@ -292,6 +292,43 @@ TEST_F(StudyFile, FitSettingsThatCannotBeAreRefused) {
   expect_refused("reference_rate_per_s = 7e-7", "reference_rate_per_s = 0", {"study.toml:13", "> 0"});
 }
 
+TEST_F(StudyFile, ReferenceNumericsHaveWhatTheyDoNotSayFromTheOthers) {
+  const Study study = read_changed("points_per_cell = 9",
+                                   "points_per_cell = 9\ntolerance = 0.002\n"
+                                   "reference = { cell_size_mm = 2.6, scheme = \"plain\" }");
+  const SlumpTest& test = study.slump_tests.at(0);
+  ASSERT_TRUE(test.reference.has_value());
+  EXPECT_DOUBLE_EQ(test.reference->cell_size, 2.6e-3);
+  EXPECT_EQ(test.reference->scheme, mpm::Scheme::plain);
+  EXPECT_EQ(test.reference->points_per_cell, 9);
+  EXPECT_EQ(test.reference->tolerance, 0.002);
+  EXPECT_EQ(test.setup.numerics.cell_size, 6e-3);
+  EXPECT_DOUBLE_EQ(test.best_setup().numerics.cell_size, 2.6e-3);
+  EXPECT_FALSE(read_changed("points_per_cell = 9", "points_per_cell = 9").slump_tests.at(0).reference);
+  expect_refused("points_per_cell = 9", "points_per_cell = 9\nreference = { cells = 3 }",
+                 {"key cells", "unknown"});
+  expect_refused("points_per_cell = 9", "points_per_cell = 9\nreference = { cell_size_mm = 40 }",
+                 {"40 is out of range", "radius, 39"});
+}
+
+TEST_F(StudyFile, ASlumpFitMayMoveTheMud) {
+  const std::string head = "[\"lambda\", \"kappa\"]\nslump = [\"I_v\", \"OCR0\", \"e0\"]";
+  const FitSettings fit = read_changed("[\"lambda\", \"kappa\"]", head).fit;
+  ASSERT_EQ(fit.slump_mud.size(), 2U);
+  EXPECT_EQ(fit.slump_mud[0].quantity, MudQuantity::overconsolidation_ratio);
+  EXPECT_EQ(fit.slump_mud[1].quantity, MudQuantity::void_ratio);
+  EXPECT_FALSE(fit.slump_mud[1].bounds.has_value());
+  EXPECT_EQ(fit.slump, (std::vector{model::ParameterId::I_v}));
+  const std::string known = head + "\nprior = { e0 = { std_error = 0.02 } }";
+  const FitSettings with_prior = read_changed("[\"lambda\", \"kappa\"]", known).fit;
+  EXPECT_EQ(with_prior.slump_mud[1].std_error.value(), 0.02);
+  // an oedometer test has its own
+  expect_refused("[\"lambda\", \"kappa\"]", "[\"lambda\", \"e0\"]", {"study.toml:11", "\"e0\" is not"});
+  expect_refused("[\"lambda\", \"kappa\"]", head + "\nprior = { e0 = { mean = 3.9, std_error = 0.02 } }",
+                 {"key mean"});
+  expect_refused("lambda = [0.01, 0.5]", "lambda = [0.01, 0.5]\ne0 = [3.0, 5.0]", {"key e0", "unknown"});
+}
+
 TEST_F(StudyFile, ANameTwiceAndAStudyWithoutTestsAreRefused) {
   expect_refused("name = \"slump\"", "name = \"crs\"", {"study.toml:30: key name", "\"crs\" occurs twice"});
   expect_refused("name = \"slump\"", "name = \"a/b\"", {"study.toml:30: key name", "slashes"});

@@ -97,7 +97,7 @@ TEST(OutlineErrors, PartsTheNoiseOfAStudy) {
 TEST(SlumpExperiment, DecorrelatedErrorsHaveUnitVariance) {
   datasets::SlumpTest test{"drawn", {}, {cylinder(1.0), cylinder(3.0)}, {}, {1.2e-3, 2.5e-3, 0.9e-3}, false};
   test.setup.mould.lift_speed = 10.0;  // gone at once
-  const SlumpExperiment experiment(test, nullptr);
+  const SlumpExperiment experiment(test);
   const std::vector<OutlineStation>& stations = experiment.stations();
   const auto n = static_cast<Eigen::Index>(stations.size());
   ASSERT_EQ(n, 14);  // stretches of 4 mm: every point is its own

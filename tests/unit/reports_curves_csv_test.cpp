@@ -83,7 +83,7 @@ TEST_F(CurvesCsv, NamesOfTestsCannotLeaveTheFolderNorHideEachOther) {
   for (std::size_t i = 0; i < 2; ++i) {
     datasets::SlumpTest test = fit.comparisons[i].experiment->test();
     test.name = names[i];
-    fit.comparisons[i].experiment = std::make_shared<experiments::SlumpExperiment>(test, nullptr);
+    fit.comparisons[i].experiment = std::make_shared<experiments::SlumpExperiment>(test);
   }
   OutputDirectory output(root_ / "out");
   write_curves(output, fit);

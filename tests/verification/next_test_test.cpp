@@ -130,7 +130,8 @@ TEST(NextTestOfSlumps, ScatterAsForetoldWhereTheyAreMadeAndFitted) {
           point.z += reading(random);
         }
       }
-      tests.push_back(std::make_shared<experiments::SlumpExperiment>(test, paraboloid));
+      tests.push_back(std::make_shared<experiments::SlumpExperiment>(
+          test, experiments::SlumpModel{.simulate = paraboloid}));
     }
     scatter.add(fitted(tests, {I_v, C_1}));
   }

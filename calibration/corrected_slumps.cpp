@@ -1,0 +1,77 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/corrected_slumps.hpp"
+
+#include <algorithm>
+
+namespace isotach::calibration {
+
+namespace {
+
+SlumpExperiments make_experiments(const datasets::Study& study, const effects::Values<double>& effects,
+                                  const experiments::Simulate& simulate, const SimulationError& error,
+                                  const Corrections& corrections) {
+  std::vector<effects::ParameterRef> free;
+  for (const datasets::FreeEffect& one : study.fit.slump_effects) free.push_back(one.parameter);
+  SlumpExperiments all;
+  for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
+    all.push_back(std::make_shared<experiments::SlumpExperiment>(
+        study.slump_tests[i], experiments::SlumpModel{simulate, error.error, effects, free,
+                                                      study.fit.slump_mud, corrections.of(i)}));
+  }
+  return all;
+}
+
+/// The study's tests in their order. D_r stays: the oedometer's gauge has been applied.
+Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
+                     const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
+                     int threads) {
+  const Experiments in_order(all.begin(), all.end());
+  return Problem(
+      in_order,
+      Parametrisation(at, wanted, {study.fit.bounds, {}, study.fit.slump_effects}, GaugeChoice{}, in_order),
+      threads);
+}
+
+/// Whether a coordinate moves the mud.
+bool is_mud(const Coordinate& coordinate) {
+  return coordinate.shared && !coordinate.effect;
+}
+
+}  // namespace
+
+SlumpPlace CorrectedSlumps::place_at(const std::vector<double>& x) const {
+  const Parametrisation& parametrisation = problem.parametrisation();
+  const experiments::SlumpExperiment& any = *tests.front();  // all tests share effects
+  SlumpPlace place{*parametrisation.at(x), *any.effects_at(parametrisation.local_of(any, x)), {}};
+  const auto& coordinates = parametrisation.coordinates();
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (is_mud(coordinates[k])) place.mud.push_back(coordinates[k].quantity(x[k]));
+  }
+  return place;
+}
+
+tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study& study,
+                                                           const SlumpPlace& place,
+                                                           const std::vector<model::ParameterId>& wanted,
+                                                           const experiments::Simulate& simulate,
+                                                           const SimulationError& error, int threads) {
+  SlumpExperiments tests = make_experiments(study, place.effects, simulate, error, {});
+  Problem problem = make_problem(tests, study, place.parameters, wanted, threads);
+  std::vector<double> start = problem.parametrisation().start();
+  const auto& coordinates = problem.parametrisation().coordinates();
+  auto mud = place.mud.begin();
+  for (std::size_t k = 0; k < start.size() && mud != place.mud.end(); ++k) {
+    if (is_mud(coordinates[k])) start[k] = coordinates[k].of_quantity(*mud++);
+  }
+  std::vector<std::vector<double>> locals;
+  for (const auto& test : tests) locals.push_back(problem.parametrisation().local_of(*test, start));
+  auto corrections = measure_corrections(study, tests, place.parameters, locals, threads);
+  if (!corrections) return tl::unexpected(corrections.error());
+  if (corrections->any()) {
+    tests = make_experiments(study, place.effects, simulate, error, *corrections);
+    problem = make_problem(tests, study, place.parameters, wanted, threads);
+  }
+  return CorrectedSlumps{std::move(tests), std::move(problem), std::move(start), std::move(*corrections)};
+}
+
+}  // namespace isotach::calibration
