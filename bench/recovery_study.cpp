@@ -108,7 +108,7 @@ Trial run(Protocol protocol, double noise, bool correlated, bool gauged_fit, std
     return trial;
   }
   const auto& result = fit->result;
-  trial.rho = fit->noise.channels.front().model.rho;
+  trial.rho = fit->noise.channels.front().model.neighbours();
   trial.level_ratio =
       fit->noise.channels.front().model.level / (strain_noise ? bench::strain_noise(noise) : noise);
 

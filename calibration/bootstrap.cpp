@@ -64,7 +64,8 @@ Bootstrap bootstrap(const Problem& problem, const NoiseFit& noise, const std::ve
   for (std::size_t i = 0; i < problem.fitted().size(); ++i) {
     blocks.emplace_back();
     for (const ChannelWeights& channel : noise.weights[i]) {
-      blocks[i].push_back(block_length(noise.channels[next++].model.rho, channel.values.size()));
+      const NoiseModel& model = noise.channels[next++].model;
+      blocks[i].push_back(block_length(model.rho, channel.values.size(), model.serial_share));
       result.blocks.push_back(blocks[i].back());
     }
   }

@@ -52,7 +52,7 @@ tl::expected<std::vector<double>, FitFailure> first_that_predicts(
 }
 
 /// Ceres, then twice the noise and Ceres again with its weights.
-std::optional<FitFailure> find_answer(Problem& problem, const std::vector<double>& start,
+std::optional<FitFailure> find_answer(Problem& problem, const std::vector<double>& start, NoiseParts parts,
                                       const OptimiserControl& control, OedometerFit& fit) {
   const auto minimise = [&](const std::vector<double>& from, double function_tolerance) {
     CeresOptions options;
@@ -70,7 +70,7 @@ std::optional<FitFailure> find_answer(Problem& problem, const std::vector<double
   constexpr double kForGood = 1e-12;
   if (!minimise(start, kForNoise)) return FitFailure{"interrupted", true};
   for (const double function_tolerance : {kForNoise, kForGood}) {
-    auto noise = fit_noise(problem, fit.result.main.coordinates);
+    auto noise = fit_noise(problem, fit.result.main.coordinates, parts);
     if (!noise) return FitFailure{"noise: " + noise.error().message};
     fit.noise = std::move(*noise);
     problem.set_weights(fit.noise.weights);
@@ -98,7 +98,8 @@ tl::expected<MultiStart, FitFailure> try_other_starts(const datasets::Study& stu
     const Eigen::VectorXd& best = found.clusters.front().best;
     found.moved_the_answer = true;
     problem.set_weights({});
-    if (auto failure = find_answer(problem, {best.begin(), best.end()}, options.control, fit)) {
+    if (auto failure =
+            find_answer(problem, {best.begin(), best.end()}, options.noise, options.control, fit)) {
       return tl::unexpected(*failure);
     }
   }
@@ -190,7 +191,8 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
   if (!first) return tl::unexpected(first.error());
   fit.first_guess = *first;
   if (options.progress) options.progress(0.02, "fit with Ceres");
-  if (auto failure = find_answer(problem, *first, options.control, fit)) return tl::unexpected(*failure);
+  if (auto failure = find_answer(problem, *first, options.noise, options.control, fit))
+    return tl::unexpected(*failure);
   MultiStart other_starts;
   if (options.depth == Depth::assessment) {
     if (options.progress) options.progress(0.05, "fits from other starts");
@@ -217,7 +219,7 @@ tl::expected<OedometerFit, FitFailure> fit_oedometer(const datasets::Study& stud
         fmt::format("{}: what is left of {} follows its own course (autocorrelation {:.3f}): it is what the "
                     "model misses, not "
                     "noise; intervals allow for it",
-                    channel.test, channel.quantity, channel.model.rho));
+                    channel.test, channel.quantity, channel.model.neighbours()));
   }
   result.correlation = correlation_of(result.uncertainty.covariance);
   result.estimates = estimate_parameters(problem, result.main.coordinates, result.uncertainty);

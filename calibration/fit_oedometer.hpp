@@ -64,6 +64,11 @@ struct OedometerFitOptions {
   OptimiserControl control;
   /// Fraction of the work done, and what is being done; may be empty.
   std::function<void(double, const std::string&)> progress;
+  /// Where a model is a little wrong, its misfit is slow, and beside white scatter it looks like a part that
+  /// lasts: whitened by that, the curve as a whole goes where it likes (mud-a with I_v given misses its
+  /// relaxation). So a fit asks for an autoregression alone, and only who compares models, each by the noise
+  /// of the best, for the sum.
+  NoiseParts noise = NoiseParts::lasting;
 };
 
 /// The effects that a fit's predictions have, and those of their parameters that it moves.

@@ -342,7 +342,7 @@ class Rating {
     const auto noise = noise_ ? noisiest_stress(*noise_) : std::nullopt;
     if (noise) {
       result_.stress_noise = noise->model.level;
-      result_.stress_correlation = noise->model.rho;
+      result_.stress_correlation = noise->model.neighbours();
     } else if (!candidates.oedometers.empty()) {
       result_.stress_noise = setting.noise.stress_relative;
     }

@@ -96,7 +96,8 @@ Whitening by_stated_noise(const Placed& placed, double degrees, double least) {
 }  // namespace
 
 tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& problem,
-                                                                 const std::vector<double>& x) {
+                                                                 const std::vector<double>& x,
+                                                                 NoiseParts parts) {
   const auto predictions = problem.predictions(x);
   if (!predictions) return tl::unexpected(predictions.error());
   std::vector<Placed> all = place_channels(problem, *predictions);
@@ -106,8 +107,8 @@ tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& 
   }
 
   const Quadratic priors = priors_of(problem, x);
-  std::vector<Quadratic> parts;
-  for (const Placed& placed : all) parts.push_back(quadratic_of(placed));
+  std::vector<Quadratic> quadratics;
+  for (const Placed& placed : all) quadratics.push_back(quadratic_of(placed));
   const int sweeps = all.size() > 1 ? 3 : 1;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t c = 0; c < all.size(); ++c) {
@@ -115,12 +116,12 @@ tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& 
       Quadratic others = priors;
       for (std::size_t d = 0; d < all.size(); ++d) {
         if (d == c) continue;
-        others.information += parts[d].information;
-        others.gradient += parts[d].gradient;
+        others.information += quadratics[d].information;
+        others.gradient += quadratics[d].gradient;
       }
       all[c].noise.model =
-          estimate_noise(all[c].channel, others.information, others.gradient, all[c].noise.model);
-      parts[c] = quadratic_of(all[c]);
+          estimate_noise(all[c].channel, others.information, others.gradient, all[c].noise.model, parts);
+      quadratics[c] = quadratic_of(all[c]);
     }
   }
 
@@ -129,7 +130,7 @@ tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& 
   double independent = 0.0;
   for (Placed& placed : all) {
     independent += placed.noise.model.effective_count;
-    placed.noise.misfit = placed.noise.model.rho > kMisfitCorrelation;
+    placed.noise.misfit = placed.noise.model.neighbours() > kMisfitCorrelation;
     Whitening whitening(placed.noise.model, placed.channel);
     if (placed.noise.misfit) {
       const Eigen::VectorXd estimated = whitening.sd();

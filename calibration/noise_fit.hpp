@@ -37,16 +37,16 @@ struct NoiseFit {
     std::size_t fitted;               ///< test
     std::vector<std::size_t> values;  ///< of the test
     std::vector<std::size_t> chains;  ///< where a series begins anew
-    double rho;
+    double rho;             ///< of an autoregression alone: what has a white part beside it lasts less
     Eigen::VectorXd ratio;  ///< estimated over weighting standard deviation, >= 1
   };
   std::vector<Remaining> remaining;  ///< of channels that are misfit
 };
 
-/// Restricted maximum likelihood of level, floor and autocorrelation of each channel at x, the others' given,
-/// in turn until they stand still.
-[[nodiscard]] tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& problem,
-                                                                               const std::vector<double>& x);
+/// Restricted maximum likelihood of level, floor and correlation of each channel at x, the others' given, in
+/// turn until they stand still.
+[[nodiscard]] tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(
+    const Problem& problem, const std::vector<double>& x, NoiseParts parts = NoiseParts::lasting);
 
 /// The covariance of an answer whose weighted residuals keep the correlations of `noise.remaining`:
 /// C J' S J C, C the `covariance` that independent residuals would have, S theirs.

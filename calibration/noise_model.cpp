@@ -24,6 +24,7 @@ struct Candidate {
   double floor = 0.0;
   double value = std::numeric_limits<double>::infinity();
   double rho = 0.0;
+  double serial_share = 1.0;
 };
 
 /// The search for level and floor, both by their logarithm.
@@ -88,10 +89,20 @@ class Search {
          {std::pair{0.0, 0.0}, std::pair{full.level, 0.0}, std::pair{0.0, full.floor}}) {
       const auto profile = likelihood_.at(level, floor);
       if (profile.value <= full.value + kNegligible) {
-        best_ = {level, floor, profile.value, profile.rho};
+        best_ = {level, floor, profile.value, profile.rho, 1.0};
         return;
       }
     }
+  }
+
+  /// Gives part of the best one's variance to white noise where that is worth it.
+  void split() {
+    const Candidate single = best_;
+    if (single.rho > kLargestSplitRho) return;
+    Candidate split = coarse_split(single);
+    constexpr double kInReach = 1.0;  // what level and floor, as yet those of the autoregression, may gain
+    if (split.value < single.value + kInReach) split = finest_split(split);
+    best_ = split.value < single.value - kSplitGain ? split : single;
   }
 
   [[nodiscard]] const Candidate& best() const { return best_; }
@@ -99,9 +110,67 @@ class Search {
  private:
   double try_point(double level, double floor) {
     const auto profile = likelihood_.at(level, floor);
-    if (profile.value < best_.value) best_ = {level, floor, profile.value, profile.rho};
-    return std::min(profile.value, 1e300);  // BOBYQA's models want numbers
+    if (profile.value < best_.value) best_ = {level, floor, profile.value, profile.rho, 1.0};
+    return std::min(profile.value, kNoNumber);
   }
+
+  /// The best share for each of some rho, with the level and floor given.
+  Candidate coarse_split(const Candidate& single) {
+    Candidate best;
+    for (const double rho : {0.4, 0.6, 0.75, kLargestSplitRho}) {
+      constexpr int kBits = 6;
+      std::uintmax_t evaluations = 10;
+      const auto [share, value] = boost::math::tools::brent_find_minima(
+          [&](double trial) { return likelihood_.at(single.level, single.floor, rho, trial); }, 0.0, 1.0,
+          kBits, evaluations);
+      if (value < best.value) best = {single.level, single.floor, value, rho, share};
+    }
+    return best;
+  }
+
+  /// Of all numbers together, by BOBYQA; a level or floor of zero stays so.
+  Candidate finest_split(const Candidate& from) {
+    split_ = from;
+    std::vector<double> x{from.rho, from.serial_share};
+    std::vector<double> lower{0.0, 0.0};
+    std::vector<double> upper{kLargestSplitRho, 1.0};
+    const auto add = [&](double value, double lowest, double highest) {
+      if (value == 0.0) return;
+      x.push_back(std::log(value));
+      lower.push_back(std::log(lowest));
+      upper.push_back(std::log(highest));
+    };
+    add(from.level, lowest_, highest_);
+    add(from.floor, lowest_floor_, highest_floor_);
+    nlopt::opt optimiser(nlopt::LN_BOBYQA, static_cast<unsigned>(x.size()));
+    optimiser.set_lower_bounds(lower);
+    optimiser.set_upper_bounds(upper);
+    optimiser.set_initial_step(0.1);
+    optimiser.set_ftol_abs(1e-7);
+    optimiser.set_xtol_abs(1e-6);
+    optimiser.set_maxeval(300);
+    optimiser.set_min_objective([](const std::vector<double>& at, std::vector<double>&,
+                                   void* search) { return static_cast<Search*>(search)->try_split(at); },
+                                this);
+    double value = 0.0;
+    try {
+      optimiser.optimize(x, value);
+    } catch (const nlopt::roundoff_limited&) {
+      // the best point so far is kept
+    }
+    return split_;
+  }
+
+  double try_split(const std::vector<double>& x) {
+    std::size_t next = 2;
+    const double level = split_.level == 0.0 ? 0.0 : std::exp(x[next++]);
+    const double floor = split_.floor == 0.0 ? 0.0 : std::exp(x[next]);
+    const double value = likelihood_.at(level, floor, x[0], x[1]);
+    if (value < split_.value) split_ = {level, floor, value, x[0], x[1]};
+    return std::min(value, kNoNumber);
+  }
+
+  static constexpr double kNoNumber = 1e300;  // BOBYQA's models want numbers
 
   RestrictedLikelihood& likelihood_;
   double lowest_;
@@ -109,6 +178,7 @@ class Search {
   double lowest_floor_ = 0.0;
   double highest_floor_ = 0.0;
   Candidate best_;
+  Candidate split_;
 };
 
 Eigen::VectorXd standard_deviations(const NoiseModel& model, const Channel& channel) {
@@ -117,22 +187,30 @@ Eigen::VectorXd standard_deviations(const NoiseModel& model, const Channel& chan
   return variance.sqrt();
 }
 
-double effective_count(double rho, const Channel& channel) {
-  double result = 0.0;
-  const auto& starts = channel.chain_starts;
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    const std::size_t end =
-        k + 1 < starts.size() ? starts[k + 1] : static_cast<std::size_t>(channel.residuals.size());
-    const auto m = static_cast<double>(end - starts[k]);
-    result += (m - (m - 2.0) * rho) / (1.0 + rho);
+double effective_count(double rho, double serial_share, const Channel& channel) {
+  const Eigen::Index count = channel.residuals.size();
+  Eigen::VectorXd ones = Eigen::VectorXd::Ones(count);
+  SerialFilter(rho, serial_share, count, channel.chain_starts).apply(ones);
+  return ones.squaredNorm();
+}
+
+/// Standard deviations of a model that is within its ranges, for a channel that is consistent.
+Eigen::VectorXd checked_deviations(const NoiseModel& model, const Channel& channel) {
+  require_consistent_noise(channel, channel.known_variance.size());
+  if (!(model.level >= 0.0 && model.floor >= 0.0 && model.rho >= 0.0 && model.rho <= kLargestRho &&
+        model.serial_share >= 0.0 && model.serial_share <= 1.0 && std::isfinite(model.level) &&
+        std::isfinite(model.floor))) {
+    throw std::invalid_argument("a noise model with level, floor, rho or serial_share out of range");
   }
-  return result;
+  const Eigen::VectorXd sd = standard_deviations(model, channel);
+  if (!(sd.minCoeff() > 0.0)) throw std::invalid_argument("a noise model that leaves a value without noise");
+  return sd;
 }
 
 }  // namespace
 
 NoiseModel estimate_noise(const Channel& channel, const Eigen::MatrixXd& other_information,
-                          const Eigen::VectorXd& other_gradient, const NoiseModel& start) {
+                          const Eigen::VectorXd& other_gradient, const NoiseModel& start, NoiseParts parts) {
   RestrictedLikelihood likelihood(channel, other_information, other_gradient, start);
   const bool has_floor = channel.inverse_stress.size() > 0;
   // residuals without any misfit still have some noise: a millionth of what was supposed
@@ -151,46 +229,30 @@ NoiseModel estimate_noise(const Channel& channel, const Eigen::MatrixXd& other_i
     search.along_level();
   }
   search.drop_negligible();
+  if (parts == NoiseParts::lasting_and_white) search.split();
   const Candidate& best = search.best();
   if (!std::isfinite(best.value)) {
     throw std::invalid_argument("the restricted likelihood of a channel could not be computed anywhere");
   }
-  return {best.level, best.floor, best.rho, -0.5 * best.value, effective_count(best.rho, channel)};
+  return {best.level,
+          best.floor,
+          best.rho,
+          -0.5 * best.value,
+          effective_count(best.rho, best.serial_share, channel),
+          best.serial_share};
 }
 
-Whitening::Whitening(const NoiseModel& model, const Channel& channel) {
-  const Eigen::Index n = channel.known_variance.size();
-  require_consistent_noise(channel, n);
-  if (!(model.level >= 0.0 && model.floor >= 0.0 && model.rho >= 0.0 && model.rho <= kLargestRho &&
-        std::isfinite(model.level) && std::isfinite(model.floor))) {
-    throw std::invalid_argument("a noise model with level, floor or rho out of range");
-  }
-  sd_ = standard_deviations(model, channel);
-  if (!(sd_.minCoeff() > 0.0)) throw std::invalid_argument("a noise model that leaves a value without noise");
-  const double innovation = std::sqrt(1.0 - model.rho * model.rho);
-  weight_ = (innovation * sd_).cwiseInverse();
-  previous_.setZero(n);
-  previous_.tail(n - 1) = (-model.rho) * weight_.head(n - 1);
-  for (const std::size_t start : channel.chain_starts) {
-    const auto first = static_cast<Eigen::Index>(start);
-    weight_[first] = 1.0 / sd_[first];
-    previous_[first] = 0.0;
-  }
-  const auto chains = static_cast<double>(channel.chain_starts.size());
-  log_determinant_ =
-      2.0 * (sd_.array().log().sum() + (static_cast<double>(n) - chains) * std::log(innovation));
-}
+Whitening::Whitening(const NoiseModel& model, const Channel& channel)
+    : sd_(checked_deviations(model, channel)),
+      filter_(model.rho, model.serial_share, sd_.size(), channel.chain_starts),
+      log_determinant_(2.0 * sd_.array().log().sum() + filter_.log_determinant()) {}
 
 void Whitening::whiten(Eigen::Ref<Eigen::MatrixXd> values) const {
-  const Eigen::Index n = sd_.size();
-  if (values.rows() != n) throw std::invalid_argument("values to whiten are not as many as the channel's");
-  for (Eigen::Index column = 0; column < values.cols(); ++column) {
-    // from the end, so that the value before is still as it was
-    for (Eigen::Index i = n - 1; i > 0; --i) {
-      values(i, column) = weight_[i] * values(i, column) + previous_[i] * values(i - 1, column);
-    }
-    values(0, column) *= weight_[0];
+  if (values.rows() != sd_.size()) {
+    throw std::invalid_argument("values to whiten are not as many as the channel's");
   }
+  values.array().colwise() /= sd_.array();
+  filter_.apply(values);
 }
 
 }  // namespace isotach::calibration

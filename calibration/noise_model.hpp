@@ -1,11 +1,13 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// The noise of one channel of a test: its level, floor and autocorrelation estimated from residuals, and
+// The noise of one channel of a test: its level, floor and correlation estimated from residuals, and
 // residuals freed of it.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <vector>
+
+#include "calibration/serial_filter.hpp"
 
 namespace isotach::calibration {
 
@@ -19,20 +21,42 @@ struct Channel {
   std::vector<std::size_t> chain_starts;  ///< where a chain of correlation starts; 0 first, increasing
 };
 
-/// Noise with standard deviations sd_i^2 = level^2 + (floor inverse_stress_i)^2 + known_variance_i and the
-/// correlation rho^|i - j| of values i and j of one chain (first-order autoregressive), none between chains.
+/// Noise with standard deviations sd_i^2 = level^2 + (floor inverse_stress_i)^2 + known_variance_i, the sum
+/// of a part that lasts (first-order autoregressive) and a white one: values i and j of one chain have the
+/// correlation serial_share rho^|i - j|, those of different chains none.
 struct NoiseModel {
   double level = 0.0;           ///< of the unit of the residuals, >= 0
   double floor = 0.0;           ///< Pa, >= 0; 0 where the channel has none
   double rho = 0.0;             ///< in [0, kLargestRho]
   double log_likelihood = 0.0;  ///< restricted, but for -(n - p)/2 ln(2 pi); what estimate_noise maximised
-  /// Independent values that would tell a constant as well as these: (m - (m - 2) rho)/(1 + rho) for a chain
-  /// of m (1'R^-1 1, R their correlation), summed over chains; from 1 a chain to m.
+  /// Independent values that would tell a constant as well as these: 1'R^-1 1, R their correlation; with
+  /// serial_share 1 (m - (m - 2) rho)/(1 + rho) for a chain of m, summed over chains; from 1 a chain to m.
   double effective_count = 0.0;
+  double serial_share = 1.0;  ///< of each value's variance that lasts, in [0, 1]; the rest is white
+
+  /// Correlation of neighbours of a chain.
+  [[nodiscard]] double neighbours() const { return serial_share * rho; }
+  /// Variance of the mean of many neighbours, over that of as many independent values.
+  [[nodiscard]] double of_mean() const {
+    return 1.0 - serial_share + serial_share * (1.0 + rho) / (1.0 - rho);
+  }
+};
+
+/// What a noise may be made of.
+enum class NoiseParts {
+  lasting,           ///< an autoregression alone: serial_share is 1
+  lasting_and_white  ///< and a white part, where it is worth its price
 };
 
 /// Beyond this a chain of some hundred values is a random walk, which an offset explains as well.
 inline constexpr double kLargestRho = 0.995;
+/// Largest rho of a part that lasts beside a white one. Nearly everything that a model misses is slow, and
+/// beside the scatter of readings it looks like such a part: were it given all of that, no misfit would be
+/// left to see. A part that lasts longer than ten readings is therefore not taken for noise.
+inline constexpr double kLargestSplitRho = 0.9;
+/// What a white part has to gain in -2 ln(likelihood) over the autoregression alone: two, the price of one
+/// more number by Akaike (1974). Where the data do not pay it they do not tell the two apart.
+inline constexpr double kSplitGain = 2.0;
 
 /// Estimates the noise of a channel by restricted maximum likelihood (Patterson & Thompson 1971): maximises
 ///   -1/2 [ sum ln sd_i^2 + ln det R + ln det(J' S^-1 J + H) + Q ],
@@ -48,7 +72,8 @@ inline constexpr double kLargestRho = 0.995;
 /// level lies within 1e-4 and 10 times the residuals' root mean square, floor times inverse_stress too.
 /// Either is exactly 0 where leaving it out costs less than 1e-3 of log-likelihood and the other sources
 /// leave every sd_i > 0. rho is searched within [0, kLargestRho] on the whole range; level and floor from
-/// `start` and from two places of their own, so that a bad `start` does no harm.
+/// `start` and from two places of their own, so that a bad `start` does no harm. First serial_share is 1;
+/// then, with rho up to kLargestSplitRho, the share is sought too, and kept where it gains kSplitGain.
 ///
 /// A known_variance larger than the scatter there is shows as correlation: rho is the only thing left that
 /// makes the innovations small.
@@ -57,10 +82,12 @@ inline constexpr double kLargestRho = 0.995;
 /// stated, chain_starts that do not begin with 0 and increase below n, no more values than coordinates that
 /// this channel sees, and residuals all zero where `start` has no noise either.
 [[nodiscard]] NoiseModel estimate_noise(const Channel& channel, const Eigen::MatrixXd& other_information,
-                                        const Eigen::VectorXd& other_gradient, const NoiseModel& start);
+                                        const Eigen::VectorXd& other_gradient, const NoiseModel& start,
+                                        NoiseParts parts = NoiseParts::lasting_and_white);
 
-/// Frees values of a channel of its noise: r_i' = (r_i/sd_i - rho r_{i-1}/sd_{i-1})/sqrt(1 - rho^2), the
-/// first of a chain r/sd. Residuals of that noise become independent, of unit variance.
+/// Frees values of a channel of its noise: r/sd, then the innovations of SerialFilter; with serial_share 1,
+/// r_i' = (r_i/sd_i - rho r_{i-1}/sd_{i-1})/sqrt(1 - rho^2), the first of a chain r/sd. Residuals of that
+/// noise become independent, of unit variance.
 class Whitening {
  public:
   /// Of the channel its residuals and Jacobian do not enter. Throws std::invalid_argument as estimate_noise
@@ -78,9 +105,8 @@ class Whitening {
 
  private:
   Eigen::VectorXd sd_;
-  Eigen::VectorXd weight_;    ///< of a value itself
-  Eigen::VectorXd previous_;  ///< of the value before it; 0 at the start of a chain
-  double log_determinant_ = 0.0;
+  SerialFilter filter_;
+  double log_determinant_;
 };
 
 }  // namespace isotach::calibration

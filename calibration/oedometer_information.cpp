@@ -28,7 +28,7 @@ double assumed_void_ratio(const model::Parameters<double>& material, double K0) 
 
 /// Level of independent readings that would hold a mean as well as these.
 double level_of_mean(const ChannelNoise& noise) {
-  return noise.model.level * std::sqrt((1.0 + noise.model.rho) / (1.0 - noise.model.rho));
+  return noise.model.level * std::sqrt(noise.model.of_mean());
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "calibration/serial_filter.hpp"
+
 namespace isotach::calibration {
 
 namespace {
@@ -130,9 +132,23 @@ double RestrictedLikelihood::at_rho(double rho) {
   // whitened: the products of (u_i - rho u_{i-1})/sqrt(1 - rho^2), written out
   const double innovation = 1.0 - rho * rho;
   factor_ = other_ + ((1.0 + rho * rho) * products_ - rho * neighbours_ - rho * rho * ends_) / innovation;
+  return reduced(log_variances_ + correlated_ * std::log(innovation));
+}
+
+double RestrictedLikelihood::at(double level, double floor, double rho, double share) {
+  if (!scale(level, floor)) return kInfinity;
+  const SerialFilter filter(rho, share, scaled_.rows(), channel_.chain_starts);
+  white_ = scaled_;
+  filter.apply(white_);
+  factor_ = other_;
+  factor_.noalias() += white_.transpose() * white_;
+  return reduced(log_variances_ + filter.log_determinant());
+}
+
+double RestrictedLikelihood::reduced(double log_determinant) {
   // Cholesky of [A b; b' c] in place: ln det A, and c - b' A^-1 b is what is left in the corner
   const Eigen::Index last = factor_.cols() - 1;
-  double log_determinant = change_of_variables_;
+  log_determinant += change_of_variables_;
   for (Eigen::Index k = 0; k < last; ++k) {
     const double pivot = factor_(k, k);
     if (!(pivot > 0.0)) return kInfinity;
@@ -142,17 +158,21 @@ double RestrictedLikelihood::at_rho(double rho) {
       for (Eigen::Index i = j; i <= last; ++i) factor_(i, j) -= ratio * factor_(i, k);
     }
   }
-  return log_variances_ + correlated_ * std::log(innovation) + log_determinant + factor_(last, last);
+  return log_determinant + factor_(last, last);
 }
 
-RestrictedLikelihood::Profile RestrictedLikelihood::at(double level, double floor) {
+bool RestrictedLikelihood::scale(double level, double floor) {
   variance_ = channel_.known_variance.array() + level * level;
   if (inverse_stress2_.size() > 0) variance_ += floor * floor * inverse_stress2_;
-  if (!(variance_.minCoeff() > 0.0)) return {kInfinity, 0.0};
+  if (!(variance_.minCoeff() > 0.0)) return false;
   log_variances_ = variance_.log().sum();
   weight_ = variance_.rsqrt();
   scaled_ = values_.array().colwise() * weight_;
+  return true;
+}
 
+RestrictedLikelihood::Profile RestrictedLikelihood::at(double level, double floor) {
+  if (!scale(level, floor)) return {kInfinity, 0.0};
   const Eigen::Index n = scaled_.rows();
   const Eigen::Index columns = scaled_.cols();
   for (Eigen::Index a = 0; a < columns; ++a) {

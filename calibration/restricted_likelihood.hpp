@@ -1,6 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// The restricted likelihood of a channel's noise as a function of level, floor and rho, fast enough to
-// search.
+// The restricted likelihood of a channel's noise as a function of its level, floor and correlation, fast
+// enough to search.
 #pragma once
 
 #include "calibration/noise_model.hpp"
@@ -25,8 +25,16 @@ class RestrictedLikelihood {
   };
   [[nodiscard]] Profile at(double level, double floor);
 
+  /// Value where `share` of the variance has the correlation `rho` and the rest has none; infinite where some
+  /// sd_i is 0.
+  [[nodiscard]] double at(double level, double floor, double rho, double share);
+
  private:
+  /// Values over sd, and the logarithms of the variances; false where some sd_i is 0.
+  bool scale(double level, double floor);
   double at_rho(double rho);
+  /// With the whitened products in factor_ and ln det S.
+  double reduced(double log_determinant);
   void reduce(const Eigen::MatrixXd& information, const Eigen::MatrixXd& other_information,
               const Eigen::VectorXd& other_gradient);
 
@@ -43,6 +51,7 @@ class RestrictedLikelihood {
   Eigen::ArrayXd variance_;
   Eigen::ArrayXd weight_;
   Eigen::MatrixXd scaled_;      ///< values over sd
+  Eigen::MatrixXd white_;       ///< the same freed of their correlation
   Eigen::MatrixXd products_;    ///< sum of u u'
   Eigen::MatrixXd neighbours_;  ///< sum of u_i u_{i-1}' + u_{i-1} u_i' within chains
   Eigen::MatrixXd ends_;        ///< sum of u u' over the first and the last of each chain

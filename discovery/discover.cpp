@@ -60,6 +60,7 @@ class Search {
     fit_options_.threads = options.threads;
     fit_options_.depth = calibration::Depth::answer;
     fit_options_.control = options.control;
+    fit_options_.noise = calibration::NoiseParts::lasting_and_white;
   }
 
   tl::expected<Discovery, FitFailure> run() {

@@ -21,8 +21,9 @@ inline constexpr double kMargin = 6.0;
 /// A stage is missed where noise alone would miss it by as much in so few cases; as fits have it for
 /// independent noise.
 inline constexpr double kStageRare = 1e-3;
-/// Largest lag-1 correlation that is taken for the apparatus's where stages are judged: beyond it residuals
-/// keep their side over ten readings, and that is misfit sooner than noise.
+/// Largest correlation from reading to reading, of the part that lasts, that is taken for the apparatus's
+/// where stages are judged: beyond it residuals keep their side over ten readings, and that is misfit sooner
+/// than noise.
 inline constexpr double kNoiseCorrelation = 0.8;
 /// A name is refused where tests left out of the fit are predicted worse with it than by the base: by the sum
 /// over tests of the log predictive density, which weighs the uncertainty that the other tests leave in the

@@ -2,6 +2,7 @@
 #include "discovery/meets_noise.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "calibration/distributions.hpp"
 #include "discovery/limits.hpp"
@@ -10,22 +11,27 @@ namespace isotach::discovery {
 
 namespace {
 
-/// The least correlation among a test's channels; 0 where none could be estimated.
-double correlation_of(const calibration::NoiseFit& noise, const std::string& test) {
-  double least = kNoiseCorrelation;
-  bool any = false;
+/// Least sum of squared correlations among a test's channels, of a value with those behind it, none taken to
+/// last longer than kNoiseCorrelation has it; 0 where none could be estimated.
+double squared_correlations_of(const calibration::NoiseFit& noise, const std::string& test) {
+  std::optional<double> least;
   for (const calibration::ChannelNoise& channel : noise.channels) {
     if (channel.test != test || !channel.estimated) continue;
-    least = std::min(least, channel.model.rho);
-    any = true;
+    const double rho = std::min(kNoiseCorrelation, channel.model.rho);
+    const double sum = squared_correlations(rho, channel.model.serial_share);
+    least = std::min(least.value_or(sum), sum);
   }
-  return any ? least : 0.0;
+  return least.value_or(0.0);
 }
 
 }  // namespace
 
-double effective_count(double count, double rho) {
-  return std::max(1.0, count * (1.0 - rho * rho) / (1.0 + rho * rho));
+double squared_correlations(double rho, double serial_share) {
+  return serial_share * serial_share * rho * rho / (1.0 - rho * rho);
+}
+
+double effective_count(double count, double squared_correlations) {
+  return std::max(1.0, count / (1.0 + 2.0 * squared_correlations));
 }
 
 bool meets_noise(const calibration::OedometerFit& fit, const calibration::NoiseFit& noise) {
@@ -33,10 +39,10 @@ bool meets_noise(const calibration::OedometerFit& fit, const calibration::NoiseF
     const calibration::TestCheck& test = fit.checks[i];
     if (test.held_out) continue;
     if (fit.result.tests[i].rms_over_noise > calibration::kAdequate) return false;
-    const double rho = correlation_of(noise, test.name);
+    const double correlations = squared_correlations_of(noise, test.name);
     for (const calibration::StageCheck& stage : test.stages) {
       if (stage.rms_over_noise <= calibration::kStageMisfit) continue;
-      const double count = effective_count(static_cast<double>(stage.count), rho);
+      const double count = effective_count(static_cast<double>(stage.count), correlations);
       const double squares = count * stage.rms_over_noise * stage.rms_over_noise;
       if (calibration::chi_squared_survival(squares, count) < kStageRare) return false;
     }

@@ -6,10 +6,14 @@
 
 namespace isotach::discovery {
 
-/// Independent values whose mean square scatters as that of `count` values of a first-order autoregressive
-/// series with lag-1 correlation `rho` in [0, 1): count (1 - rho^2)/(1 + rho^2) (Bayley and Hammersley,
-/// Suppl. J. R. Stat. Soc. 8 (1946) 184-197, eq. for the variance); at least 1.
-[[nodiscard]] double effective_count(double count, double rho);
+/// sum of (serial_share rho^k)^2 over k = 1, 2, ...: of the correlations of a value with those behind it;
+/// rho in [0, 1).
+[[nodiscard]] double squared_correlations(double rho, double serial_share);
+
+/// Independent values whose mean square scatters as that of `count` values with those correlations: count/(1
+/// + 2 sum), for an autoregression count (1 - rho^2)/(1 + rho^2) (Bayley and Hammersley, Suppl. J. R. Stat.
+/// Soc. 8 (1946) 184-197, eq. for the variance); at least 1.
+[[nodiscard]] double effective_count(double count, double squared_correlations);
 
 /// True where every fitted test's rms is at most calibration::kAdequate times the noise stated, and so is
 /// every stage's, or noise alone would exceed that in more than one of a thousand stages. `noise`, of a fit

@@ -100,7 +100,9 @@ ordered_json noise_json(const calibration::ChannelNoise& channel) {
           {"estimated", channel.estimated},
           {"level", json_number(channel.model.level)},
           {"floor_kPa", json_number(kPerPascal * channel.model.floor)},
-          {"autocorrelation", json_number(channel.model.rho)},
+          {"autocorrelation", json_number(channel.model.neighbours())},
+          {"decay", json_number(channel.model.rho)},
+          {"serial_share", json_number(channel.model.serial_share)},
           {"independent_values", json_number(channel.model.effective_count)},
           {"stated_level", json_number(channel.stated_level)},
           {"stated_floor_kPa", json_number(kPerPascal * channel.stated_floor)}};

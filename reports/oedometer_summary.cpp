@@ -102,7 +102,7 @@ std::string noise_text(const OedometerFit& fit) {
     };
     parts.push_back(fmt::format("{} {} {} (stated {}), correlation {}", channel.test,
                                 stress ? "stress" : "strain", level(channel.model.level),
-                                level(channel.stated_level), format_number(channel.model.rho, 2)));
+                                level(channel.stated_level), format_number(channel.model.neighbours(), 2)));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }

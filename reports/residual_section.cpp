@@ -180,7 +180,7 @@ Table noise_table(const OedometerFit& fit) {
         {channel.test, stress ? "stress" : "strain", fmt::format("{}", channel.count),
          level(channel.stated_level), channel.estimated ? level(channel.model.level) : "as stated",
          floor(channel.stated_floor), channel.estimated ? floor(channel.model.floor) : std::string(kMissing),
-         format_number(channel.model.rho, 3), format_number(channel.model.effective_count, 3)});
+         format_number(channel.model.neighbours(), 3), format_number(channel.model.effective_count, 3)});
   }
   table.notes = {
       "Level: standard deviation, of the stress in per cent of it, of the strain as it is (−). Floor: a part "

@@ -91,6 +91,10 @@ TEST(BlockLength, AgreesWithHandArithmetic) {
   EXPECT_EQ(block_length(0.995, 1000), 95U);  // at most 3 sqrt(1000)
   EXPECT_EQ(block_length(0.995, 12), 4U);     // at most a third
   EXPECT_EQ(block_length(0.995, 1), 1U);
+  // half white: G = 2 0.5 0.8/0.04 = 20, root of D/2 = 0.5 + 0.5 9 = 5: 4^(2/3) = 2.5198, 25.2
+  EXPECT_EQ(block_length(0.8, 1000, 0.5), 26U);
+  EXPECT_EQ(block_length(0.8, 1000, 0.0), 1U);
+  EXPECT_THROW((void)block_length(0.5, 10, 1.5), std::invalid_argument);
   EXPECT_THROW((void)block_length(1.0, 10), std::invalid_argument);
   EXPECT_THROW((void)block_length(std::numeric_limits<double>::quiet_NaN(), 10), std::invalid_argument);
   EXPECT_THROW((void)block_length(0.5, 0), std::invalid_argument);

@@ -164,19 +164,23 @@ TEST(MeetsNoise, EffectiveCountIsThatOfSeriesThatScatterAsMuch) {
   std::normal_distribution<double> normal;
   constexpr int kSeries = 20000;
   constexpr int kCount = 60;
-  for (const double rho : {0.0, 0.4, 0.7}) {
-    double sum = 0.0;
-    for (int s = 0; s < kSeries; ++s) {
-      double value = normal(random);
-      double squares = 0.0;
-      for (int i = 0; i < kCount; ++i) {
-        squares += value * value;
-        value = rho * value + std::sqrt(1.0 - rho * rho) * normal(random);
+  for (const double share : {1.0, 0.5}) {
+    for (const double rho : {0.0, 0.4, 0.7}) {
+      double sum = 0.0;
+      for (int s = 0; s < kSeries; ++s) {
+        double value = normal(random);
+        double squares = 0.0;
+        for (int i = 0; i < kCount; ++i) {
+          const double white = share < 1.0 ? std::sqrt(1.0 - share) * normal(random) : 0.0;
+          squares += std::pow(std::sqrt(share) * value + white, 2);
+          value = rho * value + std::sqrt(1.0 - rho * rho) * normal(random);
+        }
+        sum += std::pow(squares / kCount - 1.0, 2);
       }
-      sum += std::pow(squares / kCount - 1.0, 2);
+      // the variance of the mean square of n independent values is 2/n
+      const double expected = effective_count(kCount, squared_correlations(rho, share));
+      EXPECT_NEAR(2.0 / (sum / kSeries) / expected, 1.0, 0.06) << rho << ' ' << share;
     }
-    // the variance of the mean square of n independent values is 2/n
-    EXPECT_NEAR(2.0 / (sum / kSeries) / effective_count(kCount, rho), 1.0, 0.06) << rho;
   }
 }
 
