@@ -8,6 +8,39 @@
 
 namespace isotach::discovery {
 
+namespace {
+
+/// Whether the tests that are fitted can be predicted.
+bool predicts(const datasets::Study& study, const model::Parameters<double>& parameters,
+              const effects::Values<double>& on) {
+  return std::all_of(study.oedometer_tests.begin(), study.oedometer_tests.end(), [&](const auto& test) {
+    if (test.hold_out) return true;
+    const experiments::OedometerExperiment experiment(test, on);
+    return experiment.predict(parameters, experiment.local_values()).has_value();
+  });
+}
+
+/// `base` with the effects added at their typical amplitudes, or at so small ones that the tests can be
+/// predicted: what is typical of one soil may leave another's readings without any stress.
+tl::expected<effects::Values<double>, calibration::FitFailure> starting_values(
+    const datasets::Study& study, const model::Parameters<double>& start, const effects::Values<double>& base,
+    const std::vector<const effects::Effect*>& added) {
+  constexpr int kTries = 8;
+  constexpr double kSmaller = 0.25;
+  double share = 1.0;
+  for (int k = 0;; ++k, share *= kSmaller) {
+    effects::Values<double> values = base;
+    for (const effects::Effect* effect : added) {
+      auto on = values.with(effects::with_amplitude(*effect, share * effect->parameters[0].typical_si()));
+      if (!on) return tl::unexpected(calibration::FitFailure{on.error().message()});
+      values = std::move(*on);
+    }
+    if (added.empty() || k == kTries || predicts(study, start, values)) return values;
+  }
+}
+
+}  // namespace
+
 std::string name_of(const std::vector<const effects::Effect*>& added) {
   std::string name;
   for (const effects::Effect* effect : added) {
@@ -49,15 +82,22 @@ tl::expected<Candidate, calibration::FitFailure> fit_with(const datasets::Study&
   Candidate candidate;
   candidate.added = added;
   calibration::FittedEffects with{study.effects, study.fit.oedometer_effects};
+  auto on = starting_values(study, start, study.effects, added);
+  if (!on) return tl::unexpected(on.error());
+  with.on = std::move(*on);
   for (const effects::Effect* effect : added) {
-    auto on = with.on.with(effects::with_amplitude(*effect, effect->parameters[0].typical_si()));
-    if (!on) return tl::unexpected(calibration::FitFailure{on.error().message()});
-    with.on = std::move(*on);
     for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
       if (effect->parameters[k].searched()) with.free.push_back({{effect, k}, std::nullopt});
     }
   }
   auto fit = calibration::fit_oedometer(study, start, study.fit.oedometer, with, options);
+  if (!fit && !fit.error().interrupted) {
+    datasets::Study fitted = study;
+    std::erase_if(fitted.oedometer_tests, [](const auto& test) { return test.hold_out; });
+    if (fitted.oedometer_tests.size() < study.oedometer_tests.size()) {
+      fit = calibration::fit_oedometer(fitted, start, study.fit.oedometer, with, options);
+    }
+  }
   if (!fit) return tl::unexpected(fit.error());
   candidate.fit = std::move(*fit);
   candidate.free = with.free;

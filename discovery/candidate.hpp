@@ -38,12 +38,14 @@ struct Gap {
 [[nodiscard]] std::optional<std::string> lacks(const datasets::Study& study, const effects::Effect& effect);
 
 /// Fits what the study fits and, beside it, all searched parameters of `added`, which start from their
-/// typical values.
+/// typical values, amplitudes from less where the tests cannot be predicted so. Tests held out only
+/// measure: where the answer cannot predict them they are left out of `fit`.
 [[nodiscard]] tl::expected<Candidate, calibration::FitFailure> fit_with(
     const datasets::Study& study, const model::Parameters<double>& start,
     const std::vector<const effects::Effect*>& added, const calibration::OedometerFitOptions& options);
 
-/// chi_squared and bic of all by the noise of the one that meets the data best, each brought to its least.
+/// chi_squared and bic of all by the noise of the one that meets the data best, each brought to its
+/// least.
 void weigh_alike(const datasets::Study& study, std::vector<Candidate*> candidates, int threads);
 
 }  // namespace isotach::discovery

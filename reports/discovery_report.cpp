@@ -167,10 +167,14 @@ Figure residuals_figure(const Discovery& found, std::size_t test) {
                            .x = hours,
                            .y = before.evaluation.scaled_residuals[test]});
   if (!found.trials.empty()) {
-    figure.series.push_back({.label = name_of(found.trials.front().candidate),
-                             .style = SeriesStyle::dots,
-                             .x = hours,
-                             .y = found.trials.front().candidate.fit.evaluation.scaled_residuals[test]});
+    const calibration::OedometerFit& after = found.trials.front().candidate.fit;
+    for (std::size_t i = 0; i < after.experiments.size(); ++i) {  // it may lack one that is held out
+      if (after.experiments[i]->name() != experiment.name()) continue;
+      figure.series.push_back({.label = name_of(found.trials.front().candidate),
+                               .style = SeriesStyle::dots,
+                               .x = hours,
+                               .y = after.evaluation.scaled_residuals[i]});
+    }
   }
   figure.markers = {{MarkerLine::Direction::horizontal, 2.0, ""},
                     {MarkerLine::Direction::horizontal, -2.0, ""}};

@@ -75,6 +75,40 @@ TEST(Discovery, HiddenRingFrictionIsNamed) {
   EXPECT_GE(found.best_wrong, named.gap.fitted);
 }
 
+/// Whether the fitted tests of a study can be predicted with an effect at its typical amplitude.
+bool typical_predicts(const datasets::Study& study, const effects::Effect& effect) {
+  const auto on =
+      effects::Values<double>::create({effects::with_amplitude(effect, effect.parameters[0].typical_si())});
+  for (const datasets::OedometerTest& test : study.oedometer_tests) {
+    const experiments::OedometerExperiment experiment(test, *on, {});
+    if (!test.hold_out && !experiment.predict(study.material, experiment.local_values())) return false;
+  }
+  return true;
+}
+
+// Water that has 90 mm to go leaves so thick a specimen no stress at all, at the typical conductivity.
+TEST(Discovery, EffectsWhoseTypicalAmplitudeIsTooMuchAreFittedFromLess) {
+  const effects::Effect& water = *effects::find_effect("pore_pressure");
+  datasets::Study study = hidden({});
+  for (datasets::OedometerTest& test : study.oedometer_tests) test.height *= 4.0;
+  ASSERT_FALSE(typical_predicts(study, water));
+  const auto with = fit_with(study, study.material, {&water}, quick());
+  ASSERT_TRUE(with.has_value()) << with.error().message;
+  EXPECT_NEAR(gap_of(with->fit).fitted, 1.0, 0.1);
+}
+
+// A test held out, of which the answer leaves nothing, takes no name away: it only measures.
+TEST(Discovery, TestsHeldOutThatCannotBePredictedAreLeftOut) {
+  const effects::Effect& water = *effects::find_effect("pore_pressure");
+  datasets::Study study = hidden(*effects::Values<double>::create(
+      {effects::with_amplitude(water, 0.1 * water.parameters[0].typical_si())}));
+  for (datasets::OedometerTest& test : study.oedometer_tests) test.height *= test.hold_out ? 40.0 : 1.0;
+  const auto with = fit_with(study, study.material, {&water}, quick());
+  ASSERT_TRUE(with.has_value()) << with.error().message;
+  EXPECT_NEAR(gap_of(with->fit).fitted, 1.0, 0.1);
+  EXPECT_TRUE(std::isnan(gap_of(with->fit).held_out));
+}
+
 TEST(Discovery, ScoresAreThoseOfLeastSquares) {
   const effects::Effect& friction = *effects::find_effect("ring_friction");
   const datasets::Study study =
