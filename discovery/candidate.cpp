@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibration/optimisers.hpp"
+#include "discovery/limits.hpp"
 
 namespace isotach::discovery {
 
@@ -37,6 +38,30 @@ tl::expected<effects::Values<double>, calibration::FitFailure> starting_values(
     }
     if (added.empty() || k == kTries || predicts(study, start, values)) return values;
   }
+}
+
+/// Constants of the material that the data would take beyond their bounds: released, each would gain at least
+/// kBeyondBound of chi-squared, to first order.
+std::vector<std::string> beyond_bounds(const datasets::Study& study, const Candidate& candidate,
+                                       int threads) {
+  const calibration::FitResult& result = candidate.fit.result;
+  const calibration::Problem problem = calibration::problem_of(study, candidate.fit, candidate.free, threads);
+  const std::vector<double>& x = result.main.coordinates;
+  std::vector<std::size_t> there;
+  for (std::size_t k = 0; k < result.free.size(); ++k) {
+    if (problem.parametrisation().at_bound(x, k)) there.push_back(k);
+  }
+  std::vector<std::string> names;
+  if (there.empty()) return names;
+  const auto at = problem.linearise(x);
+  if (!at) return names;
+  const Eigen::VectorXd gradient = at->jacobian.transpose() * at->residuals;
+  for (const std::size_t k : there) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double gain = gradient[i] * gradient[i] * candidate.fit.white_covariance(i, i);
+    if (gain >= kBeyondBound) names.push_back(result.coordinates[k].name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -110,6 +135,7 @@ tl::expected<Candidate, calibration::FitFailure> fit_with(const datasets::Study&
       candidate.at_bound = true;
     }
   }
+  candidate.beyond_bounds = beyond_bounds(study, candidate, options.threads);
   return candidate;
 }
 

@@ -19,6 +19,8 @@ struct Candidate {
   double chi_squared = 0.0;                ///< by the noise common to all candidates
   double bic = 0.0;                        ///< the same plus ln n for each coordinate
   bool at_bound = false;                   ///< an added amplitude ends at zero or at its largest value
+  /// Constants of the material, by name, that end at a bound which the data press against (kBeyondBound).
+  std::vector<std::string> beyond_bounds;
 };
 
 /// The names of effects that are added, "ring_friction, gas"; "base" where there are none.

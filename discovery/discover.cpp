@@ -255,6 +255,12 @@ class Search {
                                                    "further effect is called for ({})",
                                                    name_of(best.candidate), p_words(best.adequacy.p_value)));
     good &= require(!best.candidate.at_bound, "its amplitude lies within its bounds and is not zero");
+    const auto& beyond = best.candidate.beyond_bounds;
+    good &= require(beyond.empty(),
+                    beyond.empty() ? std::string("no constant of the material is held at a bound with it")
+                                   : fmt::format("no constant of the material is held at a bound with it, "
+                                                 "but {} would go beyond",
+                                                 fmt::join(beyond, " and ")));
     if (!good) {
       found_.verdict = Verdict::unknown;
       return std::nullopt;

@@ -31,6 +31,10 @@ inline constexpr double kNoiseCorrelation = 0.8;
 /// refusal: with two tests, one of which alone does not hold the base's parameters, both predict vaguely, and
 /// that says nothing against the name. An effect that one test calls for and another refutes is far below.
 inline constexpr double kPredictsNoWorse = 0.0;
+/// A constant of the material that ends at its bound counts as needed there where its release would gain so
+/// much of chi-squared: the best value then lies two standard errors beyond what the study allows, where a
+/// constant that the data leave open, or whose true value is the bound, hardly ever has it.
+inline constexpr double kBeyondBound = 4.0;
 /// Effects that are refitted, the best by score first: a score is taken at zero of the amplitude and may
 /// misjudge a strong effect's rank, hardly by so many places.
 inline constexpr std::size_t kRefitted = 6;

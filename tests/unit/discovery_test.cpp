@@ -75,6 +75,49 @@ TEST(Discovery, HiddenRingFrictionIsNamed) {
   EXPECT_GE(found.best_wrong, named.gap.fitted);
 }
 
+/// Bounds of kappa that begin so many standard errors above what a fit with the effect finds.
+datasets::Study with_kappa_above(datasets::Study study, const effects::Effect& effect, double errors) {
+  const auto free = fit_with(study, study.material, {&effect}, quick());
+  if (!free) throw std::runtime_error(free.error().message);
+  const auto kappa = static_cast<std::size_t>(model::ParameterId::kappa);
+  const calibration::ParameterEstimate& found = free->fit.result.estimates[kappa];
+  study.fit.bounds[kappa] = datasets::Bounds{found.value + errors * found.std_error, 0.1};
+  return study;
+}
+
+TEST(Discovery, NameThatNeedsAConstantAtItsBoundIsRefused) {
+  const effects::Effect& friction = *effects::find_effect("ring_friction");
+  const datasets::Study study =
+      hidden(*effects::Values<double>::create({effects::with_amplitude(friction, 0.1)}));
+  const Discovery found = discovered(with_kappa_above(study, friction, 4.0));
+  EXPECT_NE(found.verdict, Verdict::named);
+  EXPECT_EQ(name_of(found.trials.front().candidate), "ring_friction");
+  bool said = false;
+  for (const Condition& condition : found.conditions) {
+    if (condition.text.find("held at a bound") == std::string::npos) continue;
+    said = true;
+    EXPECT_FALSE(condition.holds);
+    EXPECT_NE(condition.text.find("kappa"), std::string::npos) << condition.text;
+  }
+  EXPECT_TRUE(said);
+}
+
+// To first order the gain of releasing a constant that ends n standard errors from its best is n^2.
+TEST(Discovery, AConstantAtABoundThatDataDoNotPressAgainstIsNotNeededThere) {
+  const effects::Effect& friction = *effects::find_effect("ring_friction");
+  const datasets::Study study =
+      hidden(*effects::Values<double>::create({effects::with_amplitude(friction, 0.1)}));
+  for (const double errors : {1.0, 3.0}) {
+    const datasets::Study bounded = with_kappa_above(study, friction, errors);
+    const auto with = fit_with(bounded, bounded.material, {&friction}, quick());
+    ASSERT_TRUE(with.has_value()) << with.error().message;
+    const double lower = bounded.fit.bounds[static_cast<std::size_t>(model::ParameterId::kappa)]->lower;
+    EXPECT_NEAR(with->fit.result.parameters->kappa(), lower, 1e-6 * lower);
+    EXPECT_EQ(with->beyond_bounds,
+              errors > 2.0 ? std::vector<std::string>{"kappa"} : std::vector<std::string>{});
+  }
+}
+
 /// Whether the fitted tests of a study can be predicted with an effect at its typical amplitude.
 bool typical_predicts(const datasets::Study& study, const effects::Effect& effect) {
   const auto on =
