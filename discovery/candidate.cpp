@@ -151,6 +151,14 @@ void weigh_alike(const datasets::Study& study, std::vector<Candidate*> candidate
     candidate->chi_squared = 2.0 * found.cost;
     candidate->bic = candidate->chi_squared + static_cast<double>(problem.parametrisation().size()) *
                                                   std::log(static_cast<double>(problem.value_count()));
+    std::size_t shapes = 0;
+    for (const datasets::FreeEffect& one : candidate->free) {
+      const auto& added = candidate->added;
+      if (one.parameter.index == 0) continue;
+      if (std::find(added.begin(), added.end(), one.parameter.effect) != added.end()) ++shapes;
+    }
+    candidate->bic_without_shapes =
+        candidate->bic - static_cast<double>(shapes) * std::log(static_cast<double>(problem.value_count()));
   }
 }
 

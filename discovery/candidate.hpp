@@ -18,6 +18,7 @@ struct Candidate {
   std::vector<datasets::FreeEffect> free;  ///< of the fit
   double chi_squared = 0.0;                ///< by the noise common to all candidates
   double bic = 0.0;                        ///< the same plus ln n for each coordinate
+  double bic_without_shapes = 0.0;         ///< the same but for the shape parameters of the added effects
   bool at_bound = false;                   ///< an added amplitude ends at zero or at its largest value
   /// Constants of the material, by name, that end at a bound which the data press against (kBeyondBound).
   std::vector<std::string> beyond_bounds;
@@ -46,7 +47,7 @@ struct Gap {
     const datasets::Study& study, const model::Parameters<double>& start,
     const std::vector<const effects::Effect*>& added, const calibration::OedometerFitOptions& options);
 
-/// chi_squared and bic of all by the noise of the one that meets the data best, each brought to its
+/// chi_squared and both bic of all by the noise of the one that meets the data best, each brought to its
 /// least.
 void weigh_alike(const datasets::Study& study, std::vector<Candidate*> candidates, int threads);
 

@@ -237,6 +237,13 @@ class Search {
     return *with - *base;
   }
 
+  /// By how much the best trial's BIC is lower than another's, with the shapes of effects charged or not, as
+  /// is less.
+  [[nodiscard]] double lead_over(const Candidate& other) const {
+    const Candidate& best = found_.trials.front().candidate;
+    return std::min(other.bic - best.bic, other.bic_without_shapes - best.bic_without_shapes);
+  }
+
   std::optional<FitFailure> decide() {
     if (found_.trials.size() > 1) found_.best_wrong = found_.trials[1].gap.fitted;
     if (!rejected()) {
@@ -244,9 +251,10 @@ class Search {
       return std::nullopt;
     }
     const Trial& best = found_.trials.front();
-    double next = found_.base.candidate.bic;
-    if (found_.trials.size() > 1) next = std::min(next, found_.trials[1].candidate.bic);
-    const double lead = next - best.candidate.bic;
+    double lead = lead_over(found_.base.candidate);
+    for (std::size_t k = 1; k < found_.trials.size(); ++k) {
+      lead = std::min(lead, lead_over(found_.trials[k].candidate));
+    }
     const auto require = [this](bool holds, std::string text) {
       found_.conditions.push_back({std::move(text), holds});
       return holds;
@@ -267,7 +275,7 @@ class Search {
     }
     const bool leads = require(
         lead >= kMargin, fmt::format("its BIC is lower than that of any other, the base included, by {:.1f} "
-                                     "({} asked)",
+                                     "({} asked, with shapes charged and without)",
                                      lead, kMargin));
     std::size_t fitted = 0;
     for (const auto& test : study_.oedometer_tests) fitted += test.hold_out ? 0U : 1U;
@@ -291,7 +299,7 @@ class Search {
     }
     for (std::size_t k = 0; k < found_.trials.size(); ++k) {
       const Trial& trial = found_.trials[k];
-      if (trial.candidate.bic < best.candidate.bic + kMargin) found_.equivalent.push_back(k);
+      if (lead_over(trial.candidate) < kMargin) found_.equivalent.push_back(k);
     }
     if (found_.equivalent.size() < 2) {  // too little better than the base, and nothing beside it
       found_.equivalent.clear();
@@ -299,7 +307,7 @@ class Search {
       return std::nullopt;
     }
     found_.verdict = Verdict::ambiguous;
-    found_.next = tell_apart(study_, best.candidate, found_.trials[1].candidate);
+    found_.next = tell_apart(study_, best.candidate, found_.trials[found_.equivalent[1]].candidate);
     return std::nullopt;
   }
 

@@ -16,7 +16,9 @@ inline constexpr int kReplicates = 5000;
 /// than kRejects, for a name should leave nothing behind.
 inline constexpr double kLeavesNothing = 0.01;
 /// Difference of BIC by which a name must be better than any other: 6 is "strong" by Kass & Raftery (1995),
-/// odds of 20 to 1.
+/// odds of 20 to 1. It is asked with the shapes of effects charged and without: BIC's ln n for a parameter is
+/// what n readings that determine it are worth, and a weak effect's shape is hardly determined, so that its
+/// charge alone would make a rival lose that fits as well.
 inline constexpr double kMargin = 6.0;
 /// A stage is missed where noise alone would miss it by as much in so few cases; as fits have it for
 /// independent noise.
