@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -36,7 +37,27 @@ bool is_right(const Record& r) {
   return r.named == r.hidden;
 }
 
-Rate count(const std::vector<Record>& records, std::string what, std::string asked, const Test& of,
+/// What a share or a median is to be, in per cent.
+struct Asked {
+  double least = 0.0;
+  double most = 100.0;
+
+  [[nodiscard]] bool anything() const { return least > 0.0 || most < 100.0; }
+  [[nodiscard]] bool met_by(double found) const { return found >= least && found <= most; }
+  [[nodiscard]] std::string words() const {
+    if (!anything()) return "";
+    if (least == 0.0) return fmt::format("at most {:g} %", most);
+    if (most == 100.0) return fmt::format("{:g} %", least);
+    return fmt::format("{:g} to {:g} %", least, most);
+  }
+};
+
+void find(Rate& rate, const Asked& asked, double percent) {
+  rate.found = fmt::format("{:.1f} %", percent);
+  if (asked.anything()) rate.met = asked.met_by(percent);
+}
+
+Rate count(const std::vector<Record>& records, std::string what, const Asked& asked, const Test& of,
            const Test& hit) {
   std::size_t all = 0;
   std::size_t hits = 0;
@@ -45,26 +66,28 @@ Rate count(const std::vector<Record>& records, std::string what, std::string ask
     ++all;
     if (hit(r)) ++hits;
   }
-  Rate rate{std::move(what), std::move(asked), "-", "", fmt::format("{} of {}", hits, all)};
+  Rate rate{std::move(what), asked.words(), "-", "", fmt::format("{} of {}", hits, all)};
   if (all == 0) return rate;
   const Interval interval = wilson(hits, all);
-  rate.found = fmt::format("{:.1f} %", 100.0 * static_cast<double>(hits) / static_cast<double>(all));
+  find(rate, asked, 100.0 * static_cast<double>(hits) / static_cast<double>(all));
   rate.interval = fmt::format("{:.1f} to {:.1f} %", 100.0 * interval.lower, 100.0 * interval.upper);
   return rate;
 }
 
-Rate median(std::vector<double> values, std::string what, std::string asked) {
-  Rate rate{std::move(what), std::move(asked), "-", "", fmt::format("{} studies", values.size())};
+Rate median(std::vector<double> values, std::string what, const Asked& asked) {
+  Rate rate{std::move(what), asked.words(), "-", "", fmt::format("{} studies", values.size())};
   if (values.empty()) return rate;
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   const double middle = 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-  rate.found = fmt::format("{:.1f} %", 100.0 * middle);
+  find(rate, asked, 100.0 * middle);
   return rate;
 }
 
-/// Share of the held-out gap's square, beyond the noise, that the named effect takes away.
+/// Share of the held-out gap's square, beyond the noise, that the named effect takes away; below any where
+/// the test held out can no longer be predicted with it.
 double closed(const Record& r) {
+  if (!std::isfinite(r.held_out_after)) return -std::numeric_limits<double>::infinity();
   return (r.held_out_before * r.held_out_before - r.held_out_after * r.held_out_after) /
          (r.held_out_before * r.held_out_before - 1.0);
 }
@@ -107,6 +130,25 @@ void add_confusion(std::string& page, const std::vector<Record>& records, const 
     }
   }
   add_table(page, head, rows);
+}
+
+/// What is asked and not met, in one sentence, and that a part of the plan is no more than that.
+void add_shortfalls(std::string& page, const std::vector<Rate>& rates, std::size_t made,
+                    std::size_t planned) {
+  std::vector<std::string> missed;
+  for (const Rate& rate : rates) {
+    if (rate.met && !*rate.met) {
+      missed.push_back(fmt::format("{} ({}, asked {})", rate.what, rate.found, rate.asked));
+    }
+  }
+  page += missed.empty() ? std::string("Nothing that is asked is missed.")
+                         : fmt::format("Falls short: {}.", fmt::join(missed, "; "));
+  if (made < planned) {
+    page += fmt::format(
+        " {:.0f} % of the plan was run: a rate from few studies may lie anywhere in its interval.",
+        100.0 * static_cast<double>(made) / static_cast<double>(planned));
+  }
+  page += "\n\n";
 }
 
 void add_cells(std::string& page, const std::vector<Record>& records) {
@@ -181,35 +223,37 @@ std::vector<Rate> rates_of(const std::vector<Record>& records) {
     }
   }
   std::vector<Rate> rates{
-      count(records, "nulls given a name", "at most 1 %", kind("null"), is_named),
-      count(records, "wrong name, effect in catalogue", "at most 2 %", kind("effect"), wrong),
-      count(records, "right name, rich protocol, signal to noise 30", "95 %", rich("effect", 30.0), is_right),
-      count(records, "right name, rich protocol, signal to noise 10", "75 %", rich("effect", 10.0), is_right),
-      count(records, "outside the catalogue called unknown, rich protocol", "85 %", rich("outside", 0.0),
-            unknown),
-      count(records, "so, given a name", "", rich("outside", 0.0), is_named),
+      count(records, "nulls given a name", {.most = 1.0}, kind("null"), is_named),
+      count(records, "wrong name, effect in catalogue", {.most = 2.0}, kind("effect"), wrong),
+      count(records, "right name, rich protocol, signal to noise 30", {.least = 95.0}, rich("effect", 30.0),
+            is_right),
+      count(records, "right name, rich protocol, signal to noise 10", {.least = 75.0}, rich("effect", 10.0),
+            is_right),
+      count(records, "outside the catalogue called unknown, rich protocol", {.least = 85.0},
+            rich("outside", 0.0), unknown),
+      count(records, "so, given a name", {}, rich("outside", 0.0), is_named),
       count(
-          records, "hidden effect deleted, called unknown, rich protocol, 5 sigma left", "75 %",
+          records, "hidden effect deleted, called unknown, rich protocol, 5 sigma left", {.least = 75.0},
           [&](const Record& r) { return rich("deleted", 0.0)(r) && r.beside >= kLeastBeside; }, unknown),
       count(
-          records, "so, given a name", "",
+          records, "so, given a name", {},
           [&](const Record& r) { return rich("deleted", 0.0)(r) && r.beside >= kLeastBeside; }, is_named),
-      median(shares, "held-out gap closed when named, median", "90 %"),
-      count(records, "held-out gap grown when named", "at most 5 %", judged,
+      median(shares, "held-out gap closed when named, median", {.least = 90.0}),
+      count(records, "held-out gap grown when named", {.most = 5.0}, judged,
             [](const Record& r) { return closed(r) < 0.0; }),
-      median(errors, "error of the named amplitude, signal to noise 10 and more, median", "at most 15 %"),
-      count(records, "its 90 % interval covers the truth", "84 to 96 %", measured,
+      median(errors, "error of the named amplitude, signal to noise 10 and more, median", {.most = 15.0}),
+      count(records, "its 90 % interval covers the truth", {.least = 84.0, .most = 96.0}, measured,
             [](const Record& r) {
               return r.lower <= r.true_amplitudes.front() && r.true_amplitudes.front() <= r.upper;
             }),
       count(
-          records, "place ranked first, where the base is rejected", "85 %",
+          records, "place ranked first, where the base is rejected", {.least = 85.0},
           [](const Record& r) { return r.place && r.kind != "null" && r.verdict != "adequate"; },
           [](const Record& r) { return *r.place; }),
-      count(records, "two effects at once: both named", "", kind("pair"), is_right),
-      count(records, "two effects at once: named otherwise", "", kind("pair"), wrong),
+      count(records, "two effects at once: both named", {}, kind("pair"), is_right),
+      count(records, "two effects at once: named otherwise", {}, kind("pair"), wrong),
       count(
-          records, "within 30 s on one thread", "all", [](const Record&) { return true; },
+          records, "within 30 s on one thread", {.least = 100.0}, [](const Record&) { return true; },
           [](const Record& r) { return r.seconds <= 30.0; }),
   };
   return rates;
@@ -250,9 +294,11 @@ std::string results_page(const std::vector<Record>& records, std::size_t planned
   page += "## Rates\n\n";
   std::vector<std::vector<std::string>> rows;
   for (const Rate& rate : rates_of(records)) {
-    rows.push_back({rate.what, rate.asked, rate.found, rate.interval, rate.counted});
+    const std::string met = !rate.met ? "" : *rate.met ? "yes" : "no";
+    rows.push_back({rate.what, rate.asked, rate.found, rate.interval, rate.counted, met});
   }
-  add_table(page, {"what", "asked", "found", "95 % interval", "counted"}, rows);
+  add_table(page, {"what", "asked", "found", "95 % interval", "counted", "met"}, rows);
+  add_shortfalls(page, rates_of(records), records.size(), planned);
   add_cells(page, records);
   page += "## Confusion matrices\n\n";
   for (const auto& [kind, words] : {std::pair{"null", "Nothing hidden"},

@@ -245,6 +245,11 @@ TEST(Rates, CountWhatTheySay) {
   EXPECT_EQ(rates.at("outside the catalogue called unknown, rich protocol").counted, "1 of 1");
   EXPECT_EQ(rates.at("held-out gap closed when named, median").found, "87.5 %") << "(9 - 2)/(9 - 1)";
   EXPECT_EQ(rates.at("its 90 % interval covers the truth").counted, "0 of 1");
+  EXPECT_EQ(rates.at("nulls given a name").met, false);
+  EXPECT_EQ(rates.at("outside the catalogue called unknown, rich protocol").met, true);
+  EXPECT_EQ(rates.at("its 90 % interval covers the truth").met, false);
+  EXPECT_EQ(rates.at("its 90 % interval covers the truth").asked, "84 to 96 %");
+  EXPECT_EQ(rates.at("two effects at once: both named").met, std::nullopt);
   EXPECT_EQ(rates.at("error of the named amplitude, signal to noise 10 and more, median").found, "10.0 %");
 }
 
