@@ -60,9 +60,12 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
 
   // expected work in evaluations of the slump tests; the real number decides itself
   constexpr double kExpected = 120.0;
+  constexpr double kReferenceSets = 9.0;  // four for the error of simulations, and one a correction
+  const double reference = reference_cost(study);
+  const double expected = kExpected + kReferenceSets * reference;
   double done = 0.0;
   const auto report = [&](double evaluations, const std::string& what) {
-    if (options.progress) options.progress(std::min(0.97, (done + evaluations) / kExpected), what);
+    if (options.progress) options.progress(std::min(0.97, (done + evaluations) / expected), what);
   };
   OedometerFitOptions oedometer_options;
   oedometer_options.threads = options.threads;
@@ -95,6 +98,8 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
              fmt::format("slump fit, round {}, evaluation {}, cost {:.4g}", round, evaluations, cost));
     };
     const model::Parameters<double> before = *calibration.oedometer.result.parameters;
+    report(0.0, fmt::format("slump fit, round {}, error of the simulations", round));
+    done += (is_first ? 5.0 : 1.0) * reference;
     auto search = search_slump(study, before, moved, slump_options);
     if (!search) return tl::unexpected(search.error());
     slump_options.simulation_error = search->simulation_error;

@@ -14,6 +14,15 @@ bool has_reference(const datasets::Study& study) {
                      [](const auto& test) { return test.reference.has_value(); });
 }
 
+double reference_cost(const datasets::Study& study) {
+  if (!has_reference(study)) return 0.0;
+  const datasets::SlumpTest& test = study.slump_tests.front();
+  const double finer = test.setup.numerics.cell_size / test.best_setup().numerics.cell_size;
+  const double points = static_cast<double>(test.best_setup().numerics.points_per_cell) /
+                        static_cast<double>(test.setup.numerics.points_per_cell);
+  return finer * finer * finer * points;
+}
+
 tl::expected<Corrections, FitFailure> measure_corrections(
     const datasets::Study& study,
     const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,

@@ -32,6 +32,10 @@ struct Corrections {
 /// Whether the study has reference numerics.
 [[nodiscard]] bool has_reference(const datasets::Study& study);
 
+/// How many times the work of a quick simulation one by the reference is: by the cells, and the steps that
+/// they take; 0 without a reference.
+[[nodiscard]] double reference_cost(const datasets::Study& study);
+
 /// Simulates `tests`, all of a study, both ways at parameters and each test's `locals`. Nothing is simulated
 /// where the study has no reference. A test that fails is left as it is. The error is an interruption.
 [[nodiscard]] tl::expected<Corrections, FitFailure> measure_corrections(
