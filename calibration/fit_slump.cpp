@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <optional>
 
 #include "calibration/parallel.hpp"
 #include "calibration/profile_verdict.hpp"
@@ -79,6 +80,22 @@ double volume_excess(const datasets::SlumpTest& test) {
     sum += copy.volume() / fill - 1.0;
   }
   return sum / static_cast<double>(test.outlines.size());
+}
+
+/// Names the tests whose outlines cannot have the volume that the mould held.
+std::optional<std::string> volume_warning(const std::vector<SlumpComparison>& comparisons) {
+  std::string tests;
+  for (const SlumpComparison& comparison : comparisons) {
+    if (std::abs(comparison.volume_excess) <= kMostVolumeExcess) continue;
+    tests += fmt::format("{}{} ({:+.1f} %)", tests.empty() ? "" : ", ", comparison.experiment->name(),
+                         100.0 * comparison.volume_excess);
+  }
+  if (tests.empty()) return std::nullopt;
+  return fmt::format(
+      "outlines hold more or less than the mould did: {}. Their scale, edge or axis is off, and no "
+      "simulation "
+      "that keeps its volume can meet them everywhere",
+      tests);
 }
 
 tl::expected<std::vector<SlumpComparison>, FitFailure> compare_all(
@@ -398,15 +415,8 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
                            experiments::root_mean_square(experiment.decorrelated(comparison.distances))};
     if (!test.held_out && test.rms_over_noise > kAdequate) result.adequate = false;
     result.tests.push_back(test);
-    if (std::abs(comparison.volume_excess) > kMostVolumeExcess) {
-      result.warnings.push_back(
-          fmt::format("the outlines of {} hold {:.1f} % {} than the mould did: their scale, edge or axis is "
-                      "off, and no simulation "
-                      "that keeps its volume can meet them everywhere",
-                      test.name, 100.0 * std::abs(comparison.volume_excess),
-                      comparison.volume_excess > 0.0 ? "more" : "less"));
-    }
   }
+  if (auto warning = volume_warning(fit.comparisons)) result.warnings.push_back(std::move(*warning));
   return fit;
 }
 
