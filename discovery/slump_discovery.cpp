@@ -358,7 +358,16 @@ class SlumpSearch {
       trial.gap = {trial.candidate.gap, std::nan("")};
     }
     if (found_.trials.empty()) return std::nullopt;
-    return simulate_all(found_.trials.front());
+    if (auto failure = simulate_all(found_.trials.front())) return failure;
+    const SlumpTrial& best = found_.trials.front();
+    for (const SlumpDisagreement& now : slump_disagreement(best.candidate.tests, best.simulations)) {
+      for (SlumpDisagreement& before : found_.disagreement) {
+        if (before.test == now.test && before.zone == now.zone && before.to == now.to) {
+          before.mean_by_best = now.mean;
+        }
+      }
+    }
+    return std::nullopt;
   }
 
   std::optional<FitFailure> simulate_all(SlumpTrial& trial) {

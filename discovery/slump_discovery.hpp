@@ -24,6 +24,8 @@ struct SlumpDisagreement {
   double to;     ///< s, the outline
   double mean;   ///< m, of measured less simulated, outwards
   double score;  ///< root of the sum of squares beyond that of noise, in units of noise
+  /// The mean (m) with the best trial; NaN without one.
+  double mean_by_best = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A set of effects that was tried.

@@ -38,6 +38,16 @@ std::string gap_words(const SlumpDiscovery& found) {
                             found.trials.front().gap, found.best_wrong, found.smoother);
 }
 
+/// What becomes of the place that the base misses most.
+std::string worst_place_words(const SlumpDiscovery& found) {
+  if (found.disagreement.empty()) return {};
+  const discovery::SlumpDisagreement& worst = found.disagreement.front();
+  if (!std::isfinite(worst.mean_by_best)) return {};
+  return fmt::format(" Where the base is missed most, {}{} at the {} until {} s, it goes from {} to {} mm.",
+                     worst.test, worst.held_out ? " (held out)" : "", name_of(worst.zone), three(worst.to),
+                     three(worst.mean / kMillimetre), three(worst.mean_by_best / kMillimetre));
+}
+
 void add_verdict(Page& page, const SlumpDiscovery& found) {
   using discovery::Verdict;
   switch (found.verdict) {
@@ -54,7 +64,7 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
       const SlumpTrial& best = found.trials[*found.chosen];
       page.verdict(Tone::warning, fmt::format("Slumps: the model lacks {}: the data are consistent with {}.",
                                               described(best.candidate.added), values_of(best.candidate)));
-      page.verdict(Tone::good, gap_words(found));
+      page.verdict(Tone::good, gap_words(found) + worst_place_words(found));
       return;
     }
     case Verdict::ambiguous: {
@@ -77,12 +87,16 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
   }
 }
 
+std::string millimetres_or_none(double metres) {
+  return std::isfinite(metres) ? three(metres / kMillimetre) : kMissing;
+}
+
 Table place_table(const SlumpDiscovery& found) {
-  Table table{
-      .caption = "Where the base's outlines disagree, the worst first.",
-      .header = {"test", "zone", "mould", "from (s)", "to (s)", "measured further out by (mm)", "score"},
-      .alignment = {Alignment::left, Alignment::left, Alignment::left, Alignment::right, Alignment::right,
-                    Alignment::right, Alignment::right}};
+  Table table{.caption = "Where the base's outlines disagree, the worst first.",
+              .header = {"test", "zone", "mould", "from (s)", "to (s)", "measured further out by (mm)",
+                         "than with the best explanation (mm)", "score"},
+              .alignment = {Alignment::left, Alignment::left, Alignment::left, Alignment::right,
+                            Alignment::right, Alignment::right, Alignment::right, Alignment::right}};
   table.notes.push_back(
       "Zones by length from the toe: toe to a quarter, top beyond seven tenths. Score: root of the sum of "
       "squared distances beyond what noise would give, in units of noise.");
@@ -90,7 +104,8 @@ Table place_table(const SlumpDiscovery& found) {
     const discovery::SlumpDisagreement& place = found.disagreement[k];
     table.rows.push_back({place.test + (place.held_out ? ", held out" : ""), std::string(name_of(place.zone)),
                           place.lifting ? "rising" : "gone", three(place.from), three(place.to),
-                          three(place.mean / kMillimetre), three(place.score)});
+                          three(place.mean / kMillimetre), millimetres_or_none(place.mean_by_best),
+                          three(place.score)});
   }
   return table;
 }
@@ -261,6 +276,7 @@ ordered_json discovery_json(const SlumpDiscovery& found) {
                                     {"from", json_number(place.from)},
                                     {"to", json_number(place.to)},
                                     {"mean_mm", json_number(place.mean / kMillimetre)},
+                                    {"mean_by_best_mm", json_number(place.mean_by_best / kMillimetre)},
                                     {"score", json_number(place.score)}});
   }
   json["conditions"] = conditions_json(found.conditions);
