@@ -16,22 +16,13 @@ CommonError::CommonError(const Eigen::MatrixXd& directions) {
   sizes_ = svd.singularValues();
 }
 
-Eigen::MatrixXd CommonError::whitened(Eigen::MatrixXd residuals) const {
+Eigen::MatrixXd CommonError::scaled(Eigen::MatrixXd residuals, double power) const {
   if (sizes_.size() == 0) return residuals;
-  const Eigen::VectorXd factors = (1.0 + sizes_.array().square()).rsqrt() - 1.0;
+  const Eigen::VectorXd factors = (1.0 + sizes_.array().square()).pow(power) - 1.0;
   auto values = residuals.topRows(basis_.rows());
   const Eigen::MatrixXd parts = basis_.transpose() * values;
   values += basis_ * (factors.asDiagonal() * parts);
   return residuals;
-}
-
-Eigen::MatrixXd CommonError::as_read(Eigen::MatrixXd whitened) const {
-  if (sizes_.size() == 0) return whitened;
-  const Eigen::VectorXd factors = (1.0 + sizes_.array().square()).sqrt() - 1.0;
-  auto values = whitened.topRows(basis_.rows());
-  const Eigen::MatrixXd parts = basis_.transpose() * values;
-  values += basis_ * (factors.asDiagonal() * parts);
-  return whitened;
 }
 
 namespace {

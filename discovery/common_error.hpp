@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <tl/expected.hpp>
+#include <utility>
 
 #include "discovery/slump_candidate.hpp"
 
@@ -19,11 +20,18 @@ class CommonError {
   explicit CommonError(const Eigen::MatrixXd& directions);
 
   /// (I + Q Q')^(-1/2) r.
-  [[nodiscard]] Eigen::MatrixXd whitened(Eigen::MatrixXd residuals) const;
+  [[nodiscard]] Eigen::MatrixXd whitened(Eigen::MatrixXd residuals) const {
+    return scaled(std::move(residuals), -0.5);
+  }
   /// Back again.
-  [[nodiscard]] Eigen::MatrixXd as_read(Eigen::MatrixXd whitened) const;
+  [[nodiscard]] Eigen::MatrixXd as_read(Eigen::MatrixXd whitened) const {
+    return scaled(std::move(whitened), 0.5);
+  }
 
  private:
+  /// (I + Q Q')^power times.
+  [[nodiscard]] Eigen::MatrixXd scaled(Eigen::MatrixXd residuals, double power) const;
+
   Eigen::MatrixXd basis_;  ///< orthonormal
   Eigen::VectorXd sizes_;  ///< singular values of Q
 };
