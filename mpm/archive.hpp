@@ -37,8 +37,8 @@ class Archive {
       value.visit(*this);
     }
   }
-  template <class T>
-  void operator()(std::vector<T>& values) {
+  template <class T, class Allocator>
+  void operator()(std::vector<T, Allocator>& values) {
     std::uint64_t size = values.size();
     (*this)(size);
     if (loading_) {

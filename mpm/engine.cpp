@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "mpm/base_gap.hpp"
 #include "mpm/plane_tie.hpp"
+#include "mpm/point_order.hpp"
 
 namespace isotach::mpm {
 
@@ -40,11 +40,11 @@ Body& Engine::add(Body body) {
   if (q.count == 0) throw std::invalid_argument("a body needs points");
   if (q.count > std::numeric_limits<std::uint32_t>::max()) throw std::invalid_argument("too many points");
   const std::size_t padded = Particles::padded(q.count, kBlock);
-  std::vector<const std::vector<double>*> absent;
-  q.for_each_optional([&](std::vector<double>& array) {
+  std::vector<const PointArray*> absent;
+  q.for_each_optional([&](PointArray& array) {
     if (array.empty()) absent.push_back(&array);
   });
-  q.for_each_array([&](std::vector<double>& array) {
+  q.for_each_array([&](PointArray& array) {
     if (std::find(absent.begin(), absent.end(), &array) != absent.end()) return;
     array.resize(q.count, 0.0);
     array.resize(padded, array.back());
@@ -81,44 +81,6 @@ std::pair<std::size_t, std::size_t> Engine::share(const Particles& q, int k) con
           std::min(q.count, blocks * next / threads * kBlock)};
 }
 
-namespace {
-
-std::size_t cell_of(const Grid& grid, const Particles& q, std::size_t i) {
-  const double inverse_h = 1.0 / grid.cell_size();
-  return grid.index(static_cast<std::size_t>(q.r[i] * inverse_h),
-                    static_cast<std::size_t>(q.z[i] * inverse_h));
-}
-
-std::size_t count_stretches(const Grid& grid, const Particles& q) {
-  std::size_t stretches = 0;
-  std::size_t last = std::size_t(-1);
-  for (std::size_t i = 0; i < q.count; ++i) {
-    const std::size_t cell = cell_of(grid, q, i);
-    stretches += cell != last ? 1U : 0U;
-    last = cell;
-  }
-  return stretches;
-}
-
-}  // namespace
-
-/// Points of a cell side by side, cells in rows; points of a cell keep their order.
-void Engine::sort(Body& body) {
-  Particles& q = body.particles;
-  using Index = std::uint32_t;  // half the room; add() sees that it suffices
-  std::vector<Index> starts(grid_.stride() * (grid_.rows() + 2) + 1, 0);
-  for (std::size_t i = 0; i < q.count; ++i) ++starts[cell_of(grid_, q, i) + 1];
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  std::vector<Index> from(q.count);
-  for (std::size_t i = 0; i < q.count; ++i) from[starts[cell_of(grid_, q, i)]++] = static_cast<Index>(i);
-  std::vector<double> sorted(q.count);
-  q.for_each_array([&](std::vector<double>& array) {
-    if (array.empty()) return;
-    for (std::size_t i = 0; i < q.count; ++i) sorted[i] = array[from[i]];
-    std::copy(sorted.begin(), sorted.end(), array.begin());
-  });
-}
-
 // The order of points changes what sums round to, so it may depend on nothing but the points and the step.
 void Engine::sort_if_scattered() {
   constexpr long kStepsBetweenLooks = 32;
@@ -126,7 +88,7 @@ void Engine::sort_if_scattered() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto limit = static_cast<std::size_t>(kScattered * static_cast<double>(fields_[b].stretches));
     if (count_stretches(grid_, bodies_[b].particles) <= limit) continue;
-    sort(bodies_[b]);
+    sort_by_cells(grid_, bodies_[b].particles);
     fields_[b].stretches = count_stretches(grid_, bodies_[b].particles);
   }
 }
@@ -156,7 +118,7 @@ void Engine::start() {
   started_ = true;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Body& body = bodies_[b];
-    sort(body);
+    sort_by_cells(grid_, body.particles);
     fields_[b].stretches = count_stretches(grid_, body.particles);
     for (std::size_t i = 0; i < body.particles.count; ++i) {
       fields_[b].stiffest = std::max(fields_[b].stiffest, body.material->wave_modulus(body.particles, i));
@@ -164,7 +126,7 @@ void Engine::start() {
     if (!body.averaged) continue;
     CornerField& corners = fields_[b].corners;
     push_pressure(body.particles, 0, body.particles.count, grid_, *body.material, corners.pressures);
-    corners.average_pressure();
+    corners.average_pressure(0, corners.pressures.rows());
   }
 }
 
@@ -186,8 +148,6 @@ double Engine::longest_step() const {
 }
 
 void Engine::push(double dt) {
-  grid_.sums().clear();
-  for (NodeSums& sums : sums_) sums.clear();
   // inertia that grows must not add kinetic energy: velocities shrink so that it stays
   const double scale = std::sqrt(inertia_ / next_inertia_);
   inertia_ = next_inertia_;
@@ -207,24 +167,26 @@ void Engine::push(double dt) {
       team_->run([&](int k) {
         const auto [begin, end] = share(body.particles, k);
         NodeSums& sums = k == 0 ? grid_.sums() : sums_[static_cast<std::size_t>(k - 1)];
+        if (b == 0) sums.clear();
         push_to_nodes<S>(body.particles, begin, end, grid_, settings, sums);
       });
     });
   }
   velocity_scale_ = scale;
   if (!sums_.empty()) {
-    team_->run([&](int k) {
-      const std::size_t rows = grid_.rows() + 2;
-      const auto size = static_cast<std::size_t>(team_->size());
-      const std::size_t first = rows * static_cast<std::size_t>(k) / size;
-      const std::size_t last = rows * static_cast<std::size_t>(k + 1) / size;
+    share_rows([&](std::size_t, std::size_t first, std::size_t last) {
       for (const NodeSums& sums : sums_) grid_.sums().add(sums, first, last);
     });
   }
 }
 
-void Engine::advance_row(std::size_t j, double dt, double& internal_work, double& applied_work,
-                         double& kinetic) {
+void Engine::count_work(const NodeWork& work) {
+  internal_work_ += work.internal;
+  applied_work_ += work.applied;
+  kinetic_ += work.kinetic;
+}
+
+void Engine::advance_row(std::size_t j, double dt, NodeWork& work) {
   const Octet* nodes = grid_.sums().data();
   NodeVelocity* velocities = grid_.velocities();
   const double inverse_inertia = 1.0 / inertia_;
@@ -244,11 +206,11 @@ void Engine::advance_row(std::size_t j, double dt, double& internal_work, double
     const double change_z = (node[kInternalZ] + node[kAppliedZ]) * impulse;
     const double path_r = (before_r + 0.5 * change_r) * dt;
     const double path_z = (before_z + 0.5 * change_z) * dt;
-    internal_work += node[kInternalR] * path_r + node[kInternalZ] * path_z;
-    applied_work += node[kAppliedR] * path_r + (node[kAppliedZ] + node[kMass] * settings_.gravity) * path_z;
+    work.internal += node[kInternalR] * path_r + node[kInternalZ] * path_z;
+    work.applied += node[kAppliedR] * path_r + (node[kAppliedZ] + node[kMass] * settings_.gravity) * path_z;
     const double after_r = before_r + change_r;
     const double after_z = before_z + change_z;
-    kinetic += 0.5 * node[kMass] * (after_r * after_r + after_z * after_z);
+    work.kinetic += 0.5 * node[kMass] * (after_r * after_r + after_z * after_z);
     velocities[n] = NodeVelocity{after_r, after_z, before_r, before_z};
   }
 }
@@ -258,20 +220,21 @@ void Engine::fold(double dt) {
   grid_.fold_columns();
   const bool slides = grid_.sides().bottom == Side::fixed && base_.yields();
   sliding_.forget();
-  if (slides) {
-    const NodeWork work = sliding_.slide(grid_, base_, settings_.symmetry, dt, inertia_);
-    internal_work_ += work.internal;
-    applied_work_ += work.applied;
-    kinetic_ += work.kinetic;
-  }
+  if (slides) count_work(sliding_.slide(grid_, base_, settings_.symmetry, dt, inertia_));
   grid_.fold_rows();
   sliding_.take_out(grid_);
 }
 
 void Engine::advance_nodes(double dt) {
-  const std::size_t first = grid_.sides().bottom == Side::open ? 0 : 1;
-  const std::size_t last = grid_.sides().top == Side::open ? grid_.rows() + 2 : grid_.rows() + 1;
-  for (std::size_t j = first; j < last; ++j) advance_row(j, dt, internal_work_, applied_work_, kinetic_);
+  const std::size_t lowest = grid_.sides().bottom == Side::open ? 0 : 1;
+  const std::size_t end = grid_.sides().top == Side::open ? grid_.rows() + 2 : grid_.rows() + 1;
+  std::vector<NodeWork> works(static_cast<std::size_t>(team_->size()));
+  share_rows([&](std::size_t thread, std::size_t first, std::size_t last) {
+    NodeWork work;
+    for (std::size_t j = std::max(first, lowest); j < std::min(last, end); ++j) advance_row(j, dt, work);
+    works[thread] = work;
+  });
+  for (const NodeWork& work : works) count_work(work);
   grid_.mirror_velocities();
   sliding_.put_back(grid_);
 }
@@ -287,13 +250,12 @@ std::optional<EngineFailure> Engine::pull(double dt) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Body& body = bodies_[b];
     Field& field = fields_[b];
-    field.corners.rates.clear();
-    for (auto& rates : field.rates) rates.clear();
     std::vector<PullResult> results(static_cast<std::size_t>(team_->size()));
     with_symmetry(settings_.symmetry, [&]<Symmetry S>() {
       team_->run([&](int k) {
         const auto [begin, end] = share(body.particles, k);
         auto& rates = k == 0 ? field.corners.rates : field.rates[static_cast<std::size_t>(k - 1)];
+        rates.clear();
         results[static_cast<std::size_t>(k)] =
             pull_from_nodes<S>(body.particles, begin, end, grid_, settings, body.averaged ? &rates : nullptr);
       });
@@ -312,8 +274,10 @@ std::optional<EngineFailure> Engine::pull(double dt) {
                       q.r[i] * 1e3, q.z[i] * 1e3, steps_)};
     }
     if (!body.averaged) continue;
-    for (const auto& rates : field.rates) field.corners.rates.add(rates, 0, rates.rows());
-    field.corners.average_rate();
+    share_rows([&](std::size_t, std::size_t first, std::size_t last) {
+      for (const auto& rates : field.rates) field.corners.rates.add(rates, first, last);
+      field.corners.average_rate(first, last);
+    });
     if (body.flows && settings_.closes_base_gap)
       close_gap_above_base(grid_, settings_.symmetry, field.corners);
   }
@@ -324,8 +288,6 @@ void Engine::update(double dt) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Body& body = bodies_[b];
     Field& field = fields_[b];
-    field.corners.pressures.clear();
-    for (auto& pressures : field.pressures) pressures.clear();
     body.particles.repeat_last(kOctet);
     std::vector<MaterialCount> counts(static_cast<std::size_t>(team_->size()));
     const double* mean_rate = body.averaged ? field.corners.mean.data() : nullptr;
@@ -333,6 +295,7 @@ void Engine::update(double dt) {
       team_->run([&](int k) {
         const auto [begin, end] = share(body.particles, k);
         auto& pressures = k == 0 ? field.corners.pressures : field.pressures[static_cast<std::size_t>(k - 1)];
+        pressures.clear();
         update_points<S>(body.particles, begin, end, grid_, dt, mean_rate, *body.material,
                          body.averaged ? &pressures : nullptr, counts[static_cast<std::size_t>(k)]);
       });
@@ -342,8 +305,10 @@ void Engine::update(double dt) {
     field.stiffest = met.stiffest;
     count_ += met;
     if (!body.averaged) continue;
-    for (const auto& pressures : field.pressures) field.corners.pressures.add(pressures, 0, pressures.rows());
-    field.corners.average_pressure();
+    share_rows([&](std::size_t, std::size_t first, std::size_t last) {
+      for (const auto& pressures : field.pressures) field.corners.pressures.add(pressures, first, last);
+      field.corners.average_pressure(first, last);
+    });
   }
 }
 

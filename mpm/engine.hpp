@@ -132,10 +132,10 @@ class Engine {
   void prepare();
   void start();
   void sort_if_scattered();
-  void sort(Body& body);
   void push(double dt);
   void advance_nodes(double dt);
-  void advance_row(std::size_t j, double dt, double& internal_work, double& applied_work, double& kinetic);
+  void advance_row(std::size_t j, double dt, NodeWork& work);
+  void count_work(const NodeWork& work);
   void fold(double dt);
   [[nodiscard]] std::optional<EngineFailure> stick_to_floor(double dt);
   [[nodiscard]] std::optional<EngineFailure> pull(double dt);
@@ -144,6 +144,17 @@ class Engine {
   void end_step(double dt, double until);
   /// Points of the team's thread k: first and last + 1.
   [[nodiscard]] std::pair<std::size_t, std::size_t> share(const Particles& particles, int k) const;
+  /// The team calls f(k, first, last) on rows first .. last - 1 of nodes or corners, each thread k on its
+  /// own.
+  template <class F>
+  void share_rows(F&& f) {
+    team_->run([&](int k) {
+      const std::size_t rows = grid_.rows() + 2;
+      const auto size = static_cast<std::size_t>(team_->size());
+      const auto thread = static_cast<std::size_t>(k);
+      f(thread, rows * thread / size, rows * (thread + 1) / size);
+    });
+  }
 
   EngineSettings settings_;
   Grid grid_;

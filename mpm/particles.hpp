@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/align/aligned_allocator.hpp>
 #include <cstddef>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace isotach::mpm {
 /// Points that are moved together; a multiple of all packs.
 inline constexpr std::size_t kBlock = 64;
 
+/// One quantity of all points. Aligned, so that a pack of points never lies across two lines of the cache.
+using PointArray = std::vector<double, boost::alignment::aligned_allocator<double, 64>>;
+
 /// Material points. Mass and volume are per radian of an axisymmetric body, per metre of a plane one; r and z
 /// are then x and y. Arrays have padded() entries, so that packs of points may run past the last one; the
 /// padding has neither mass nor volume, and where steps work on it, it repeats the last point.
@@ -22,23 +26,21 @@ inline constexpr std::size_t kBlock = 64;
 struct Particles {
   std::size_t count = 0;
 
-  std::vector<double> r, z;                              ///< position (m)
-  std::vector<double> velocity_r, velocity_z;            ///< m/s
-  std::vector<double> c_rr, c_rz, c_zr, c_zz;            ///< affine part of the velocity, dv_r/dr, ... (1/s)
-  std::vector<double> grid_velocity_r, grid_velocity_z;  ///< of the grid at the point, which moves it (m/s)
-  std::vector<double> l_rr, l_rz, l_zr, l_zz;            ///< gradient of the grid's velocity (1/s)
-  std::vector<double> mass;                              ///< kg/rad
-  std::vector<double> solid_volume;                      ///< m3/rad; the volume is solid_volume (1 + e)
-  std::vector<double> void_ratio;             ///< e; of a body without pores its volumetric strain J - 1
-  std::vector<double> reference_pressure;     ///< Pa, compression positive; what it means is the material's
-  std::array<std::vector<double>, 4> stress;  ///< effective stress (Pa)
-  std::array<std::vector<double>, 4>
-      omega;  ///< anisotropy tensor (-), plane Mandel; empty where it stays zero
-  std::array<std::vector<double>, 4> resistance;  ///< stress beside the law's (Pa), as stress; empty where
-                                                  ///< there is none
-  std::array<std::vector<double>, 4> capillary;   ///< the same of surface tension
-  std::vector<double>
-      structure;  ///< xi (-), 1 after long rest; empty where strength is the void ratio's alone
+  PointArray r, z;                              ///< position (m)
+  PointArray velocity_r, velocity_z;            ///< m/s
+  PointArray c_rr, c_rz, c_zr, c_zz;            ///< affine part of the velocity, dv_r/dr, ... (1/s)
+  PointArray grid_velocity_r, grid_velocity_z;  ///< of the grid at the point, which moves it (m/s)
+  PointArray l_rr, l_rz, l_zr, l_zz;            ///< gradient of the grid's velocity (1/s)
+  PointArray mass;                              ///< kg/rad
+  PointArray solid_volume;                      ///< m3/rad; the volume is solid_volume (1 + e)
+  PointArray void_ratio;                        ///< e; of a body without pores its volumetric strain J - 1
+  PointArray reference_pressure;                ///< Pa, compression positive; what it means is the material's
+  std::array<PointArray, 4> stress;             ///< effective stress (Pa)
+  std::array<PointArray, 4> omega;       ///< anisotropy tensor (-), plane Mandel; empty where it stays zero
+  std::array<PointArray, 4> resistance;  ///< stress beside the law's (Pa), as stress; empty where
+                                         ///< there is none
+  std::array<PointArray, 4> capillary;   ///< the same of surface tension
+  PointArray structure;  ///< xi (-), 1 after long rest; empty where strength is the void ratio's alone
 
   /// Number of entries of each array for a body of n points.
   [[nodiscard]] static std::size_t padded(std::size_t n, std::size_t lanes) {
@@ -69,7 +71,7 @@ struct Particles {
   /// drift: it moves, but nothing looks after its state.
   void repeat_last(std::size_t lanes) {
     const std::size_t end = padded(count, lanes);
-    for_each_array([this, end](std::vector<double>& array) {
+    for_each_array([this, end](PointArray& array) {
       if (array.empty() || &array == &mass || &array == &solid_volume) return;
       std::fill(array.begin() + static_cast<std::ptrdiff_t>(count),
                 array.begin() + static_cast<std::ptrdiff_t>(end), array[count - 1]);
@@ -79,7 +81,7 @@ struct Particles {
   template <class Archive>
   void visit(Archive& archive) {
     archive(count);
-    for_each_array([&archive](std::vector<double>& array) { archive(array); });
+    for_each_array([&archive](PointArray& array) { archive(array); });
   }
 
   [[nodiscard]] double volume(std::size_t i) const { return solid_volume[i] * (1.0 + void_ratio[i]); }

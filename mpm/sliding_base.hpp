@@ -15,6 +15,13 @@ struct NodeWork {
   double internal = 0.0;
   double applied = 0.0;
   double kinetic = 0.0;
+
+  NodeWork& operator+=(const NodeWork& other) {
+    internal += other.internal;
+    applied += other.applied;
+    kinetic += other.kinetic;
+    return *this;
+  }
 };
 
 /// The nodes next to a base that yields. They move along it by themselves, so each step takes them out of the

@@ -26,8 +26,9 @@ struct CornerField {
   RowSums<double> rates;         ///< volume times tr D
   ZeroedArray<double> mean;      ///< of pressure (Pa) or tr D (1/s), whichever was averaged last
 
-  void average_pressure();
-  void average_rate();
+  /// In the rows first .. last - 1.
+  void average_pressure(std::size_t first, std::size_t last);
+  void average_rate(std::size_t first, std::size_t last);
   /// What a step leaves to the next.
   template <class Archive>
   void visit(Archive& archive) {

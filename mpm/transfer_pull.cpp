@@ -112,8 +112,7 @@ PullResult pull_from_nodes(Particles& q, std::size_t begin, std::size_t end, con
       const double scale = settings.velocity_scale;
       const Octet keep = all(settings.keep_velocity);
       const Octet keep_gradient = all(settings.keep_gradient);
-      const auto store_gradient = [&](std::vector<double>& l, std::vector<double>& c, const Octet& after,
-                                      const Octet& before) {
+      const auto store_gradient = [&](PointArray& l, PointArray& c, const Octet& after, const Octet& before) {
         const Octet now = after * gradient;
         store_octet(&l[i], now);
         store_octet(&c[i], now + keep_gradient * (scale * load_octet(&c[i]) - before * gradient));

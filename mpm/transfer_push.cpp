@@ -48,7 +48,7 @@ void total_stress(const Particles& q, std::size_t begin, std::size_t count, cons
 }
 
 /// Adds a stress of the points beside their materials', plane Mandel.
-void add_stress(const std::array<std::vector<double>, 4>& added, std::size_t begin, std::size_t count,
+void add_stress(const std::array<PointArray, 4>& added, std::size_t begin, std::size_t count,
                 BlockStress& stress) {
   for (std::size_t p = 0; p < count; p += kOctet) {
     const std::size_t i = begin + p;

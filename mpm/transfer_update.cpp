@@ -6,8 +6,8 @@
 
 namespace isotach::mpm {
 
-void CornerField::average_pressure() {
-  for (std::size_t row = 0; row < pressures.rows(); ++row) {
+void CornerField::average_pressure(std::size_t first, std::size_t last) {
+  for (std::size_t row = first; row < last; ++row) {
     const std::size_t start = row * pressures.stride();
     for (std::size_t k = start; k < start + pressures.end(row); ++k) {
       const CornerSum& sum = pressures.data()[k];
@@ -16,8 +16,8 @@ void CornerField::average_pressure() {
   }
 }
 
-void CornerField::average_rate() {
-  for (std::size_t row = 0; row < rates.rows(); ++row) {
+void CornerField::average_rate(std::size_t first, std::size_t last) {
+  for (std::size_t row = first; row < last; ++row) {
     const std::size_t start = row * rates.stride();
     for (std::size_t k = start; k < start + rates.end(row); ++k) {
       const double volume = pressures.data()[k].volume;

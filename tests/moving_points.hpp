@@ -19,7 +19,7 @@ struct MovingPoints : mpm::Particles {
   explicit MovingPoints(std::size_t n, bool rotates = false) {
     count = n;
     const std::size_t size = padded(n, mpm::kBlock);
-    for_each_array([size](std::vector<double>& array) { array.assign(size, 0.0); });
+    for_each_array([size](mpm::PointArray& array) { array.assign(size, 0.0); });
     if (!rotates) {
       for (auto& component : omega) component.clear();
     }

@@ -25,7 +25,7 @@ class GivenForce final : public mpm::PointForce {
 
   void add(const mpm::ForceBlock& block) const override {
     const Particles& q = block.particles;
-    const std::vector<double>& amounts = amount_ == Amount::mass ? q.mass : q.omega[2];
+    const mpm::PointArray& amounts = amount_ == Amount::mass ? q.mass : q.omega[2];
     for (std::size_t p = 0; p < block.count; ++p) {
       const std::size_t i = block.begin + p;
       const Pair value = force_(start_of(q, i), block.time);

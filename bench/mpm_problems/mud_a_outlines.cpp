@@ -51,7 +51,7 @@ Fitted fit_to_oedometer(const datasets::Study& study) {
 Fitted fit_to_slumps(const datasets::Study& study, const model::Parameters<double>& start) {
   const auto fit = calibration::search_slump(study, start, study.fit.slump, {});
   if (!fit) throw std::runtime_error(fit.error().message);
-  return {"slumps", fit->parameters};
+  return {"slumps", fit->at.parameters};
 }
 
 /// Signed distances of measured points from the simulated outlines of all tests (m), test by test.
@@ -60,7 +60,7 @@ using Distances = std::vector<experiments::Values>;
 Distances compare(const std::vector<SlumpExperiment>& tests, const model::Parameters<double>& parameters) {
   Distances all;
   for (const SlumpExperiment& test : tests) {
-    const auto simulation = test.simulate(parameters);
+    const auto simulation = test.simulate(parameters, {});
     if (!simulation) throw std::runtime_error(simulation.error().message);
     all.push_back(test.distances(*simulation));
   }
@@ -69,7 +69,9 @@ Distances compare(const std::vector<SlumpExperiment>& tests, const model::Parame
 
 std::vector<SlumpExperiment> experiments_of(const datasets::Study& study) {
   std::vector<SlumpExperiment> tests;
-  for (const datasets::SlumpTest& test : study.slump_tests) tests.emplace_back(test);
+  for (const datasets::SlumpTest& test : study.slump_tests) {
+    tests.emplace_back(test, experiments::SlumpModel{calibration::plain_simulation(nullptr)});
+  }
   return tests;
 }
 
@@ -160,7 +162,9 @@ SectionTable outlines_table(const std::vector<SlumpExperiment>& tests,
       const auto& index = test.outline_index();
       const auto first =
           static_cast<std::size_t>(std::find(index.begin(), index.end(), outline) - index.begin());
-      row.push_back(fmt::format("{:.1f}", test.noise()[first] / kMillimetre));
+      const datasets::SlumpNoise& noise = test.test().noise;
+      row.push_back(
+          fmt::format("{:.1f}", (test.mould_gone()[first] ? noise.outline : noise.lifting) / kMillimetre));
       for (const Comparison& comparison : comparisons) {
         Summary summary;
         for (std::size_t k = first; k < index.size() && index[k] == outline; ++k) {
@@ -198,7 +202,8 @@ Section mud_a_section(const std::filesystem::path& study_file) {
   const datasets::Study study = datasets::read_study(study_file);
   const std::vector<SlumpExperiment> tests = experiments_of(study);
   const Fitted oedometer = fit_to_oedometer(study);
-  const Fitted slumps = fit_to_slumps(study, oedometer.parameters);
+  const Fitted slumps =
+      fit_to_slumps(with_numerics(study, mpm::Scheme::conserving, kCells.front()), oedometer.parameters);
   std::vector<Comparison> comparisons;
   const auto add = [&](const Fitted& fitted, mpm::Scheme scheme, double cell_size) {
     const auto simulated = experiments_of(with_numerics(study, scheme, cell_size));

@@ -14,8 +14,8 @@ namespace {
 TEST(Padding, RepeatsTheLastPointUpToWholePacks) {
   Particles q;
   q.count = 11;
-  q.for_each_array([](std::vector<double>& array) { array.assign(64, 1.0); });
-  q.for_each_array([](std::vector<double>& array) { array[10] = 7.0; });
+  q.for_each_array([](mpm::PointArray& array) { array.assign(64, 1.0); });
+  q.for_each_array([](mpm::PointArray& array) { array[10] = 7.0; });
   for (auto& component : q.omega) component.clear();
   q.mass[11] = q.solid_volume[11] = 0.0;
   q.repeat_last(8);

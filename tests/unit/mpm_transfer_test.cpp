@@ -53,7 +53,7 @@ Particles random_points(std::size_t n, unsigned seed) {
   Particles q;
   q.count = n;
   const std::size_t padded = Particles::padded(n, kBlock);
-  q.for_each_array([&](std::vector<double>& array) {
+  q.for_each_array([&](mpm::PointArray& array) {
     array.resize(padded);
     for (double& x : array) x = unit(random);
   });
@@ -358,7 +358,7 @@ TEST(Transfer, AveragedPressureAndAveragedRateDoTheSameWork) {
   const Echo material;
   CornerField field(g.stride(), kRows + 2);
   push_pressure(q, 0, q.count, g, material, field.pressures);
-  field.average_pressure();
+  field.average_pressure(0, field.pressures.rows());
   const std::vector<double> mean_pressure(field.mean.data(), field.mean.data() + field.mean.size());
   std::mt19937 random(52);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -373,7 +373,7 @@ TEST(Transfer, AveragedPressureAndAveragedRateDoTheSameWork) {
       }
     }
   }
-  field.average_rate();
+  field.average_rate(0, field.rates.rows());
   double by_pressure = 0.0;
   double by_rate = 0.0;
   double size = 0.0;

