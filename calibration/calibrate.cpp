@@ -45,6 +45,19 @@ std::vector<model::ParameterId> without(const std::vector<model::ParameterId>& l
   return kept;
 }
 
+/// What an oedometer fit says of I_v, if it moved I_v, holds it, and the slumps move it too.
+std::optional<datasets::Prior> knowledge_of_I_v(const FitResult& oedometer,
+                                                const std::vector<model::ParameterId>& slump_list) {
+  using model::ParameterId;
+  if (!contains(oedometer.free, ParameterId::I_v) || !contains(slump_list, ParameterId::I_v)) {
+    return std::nullopt;
+  }
+  const ParameterEstimate& estimate = oedometer.estimates[static_cast<std::size_t>(ParameterId::I_v)];
+  const bool held = estimate.verdict == Verdict::identified || estimate.verdict == Verdict::weak;
+  if (!held || !(estimate.std_error > 0.0) || !std::isfinite(estimate.std_error)) return std::nullopt;
+  return datasets::Prior{estimate.value, estimate.std_error};
+}
+
 }  // namespace
 
 tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
@@ -82,49 +95,59 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
   calibration.first_oedometer = *first;
   calibration.oedometer = std::move(*first);
 
-  std::optional<SlumpSearch> found;
-  mpm::RunCounts runs;
+  // the slumps alone
+  slump_options.max_evaluations = kFirstEvaluations;
+  slump_options.control.callback = [&](int evaluations, double cost) {
+    report(evaluations, fmt::format("slump fit, evaluation {}, cost {:.4g}", evaluations, cost));
+  };
+  report(0.0, "slump fit: error of the simulations");
+  done += 5.0 * reference;
+  auto search = search_slump(study, *calibration.oedometer.result.parameters, slump_list, slump_options);
+  if (!search) return tl::unexpected(search.error());
+  SlumpSearch found = std::move(*search);
+  done += found.search.evaluations;
+  slump_options.simulation_error = found.simulation_error;
+  slump_options.map = true;
+  slump_options.stage = [&](SlumpFitStage stage) {
+    report(0.0, fmt::format("slump fit: {}", name_of(stage)));
+  };
+  slump_options.control.callback = [&](int simulations, double) {
+    report(simulations / static_cast<double>(study.slump_tests.size()),
+           fmt::format("map of the slump fit, {} simulations", simulations));
+  };
+  auto alone = assess_slump(study, found, slump_list, slump_options);
+  if (!alone) return tl::unexpected(alone.error());
+  found.at = {*alone->result.parameters, alone->effects, alone->mud};  // the map may have led on
+  mpm::RunCounts runs = alone->runs;                                   // the search's among them
+  calibration.slump_alone = std::move(*alone);
+  slump_options.map = false;
+  slump_options.stage = nullptr;
+  done += 2.0 * static_cast<double>(slump_list.size()) + 23.0;
+
+  calibration.handed_on = knowledge_of_I_v(calibration.first_oedometer.result, slump_list);
+  slump_options.priors[static_cast<std::size_t>(ParameterId::I_v)] = calibration.handed_on;
+  slump_options.max_evaluations = kLaterEvaluations;
+  slump_options.first_step = slump_options.first_step_C_1 = kLaterStep;
   for (int round = 1; round <= options.max_rounds && !calibration.settled; ++round) {
-    const bool is_first = round == 1;
-    const std::vector<ParameterId>& moved = is_first ? slump_list : later_slump_list;
-    if (moved.empty()) {
-      calibration.settled = true;  // the oedometer moves all that the slump could
-      break;
-    }
-    slump_options.max_evaluations = is_first ? kFirstEvaluations : kLaterEvaluations;
-    if (!is_first) slump_options.first_step = slump_options.first_step_C_1 = kLaterStep;
-    slump_options.control.callback = [&](int evaluations, double cost) {
-      report(evaluations,
-             fmt::format("slump fit, round {}, evaluation {}, cost {:.4g}", round, evaluations, cost));
-    };
     const model::Parameters<double> before = *calibration.oedometer.result.parameters;
-    report(0.0, fmt::format("slump fit, round {}, error of the simulations", round));
-    done += (is_first ? 5.0 : 1.0) * reference;
-    auto search = search_slump(study, before, moved, slump_options);
-    if (!search) return tl::unexpected(search.error());
-    slump_options.simulation_error = search->simulation_error;
-    done += search->search.evaluations;
-    found = std::move(*search);
-    runs += found->runs;
-    if (is_first) {
-      slump_options.map = true;
-      slump_options.stage = [&](SlumpFitStage stage) {
-        report(0.0, fmt::format("slump fit: {}", name_of(stage)));
+    if (round > 1 || calibration.handed_on) {
+      if (later_slump_list.empty()) {
+        calibration.settled = true;  // the oedometer moves all that the slump could
+        break;
+      }
+      slump_options.control.callback = [&](int evaluations, double cost) {
+        report(evaluations,
+               fmt::format("slump fit, round {}, evaluation {}, cost {:.4g}", round, evaluations, cost));
       };
-      slump_options.control.callback = [&](int simulations, double) {
-        report(simulations / static_cast<double>(study.slump_tests.size()),
-               fmt::format("map of the slump fit, {} simulations", simulations));
-      };
-      auto alone = assess_slump(study, *found, moved, slump_options);
-      if (!alone) return tl::unexpected(alone.error());
-      found->at = {*alone->result.parameters, alone->effects, alone->mud};  // the map may have led on
-      runs = alone->runs;                                                   // the search's among them
-      calibration.slump_alone = std::move(*alone);
-      slump_options.map = false;
-      done += 2.0 * static_cast<double>(moved.size()) + 23.0;
+      done += reference;
+      search = search_slump(study, before, later_slump_list, slump_options);
+      if (!search) return tl::unexpected(search.error());
+      done += search->search.evaluations;
+      found = std::move(*search);
+      runs += found.runs;
     }
 
-    const model::Parameters<double> after = found->at.parameters;
+    const model::Parameters<double> after = found.at.parameters;
     oedometer_options.start_from_data = false;  // the answer before is nearer
     auto refit = fit_oedometer(study, after, oedometer_list, oedometer_options);
     if (!refit) return tl::unexpected(refit.error());
@@ -143,10 +166,10 @@ tl::expected<Calibration, FitFailure> calibrate(const datasets::Study& study,
 
   report(0.0, "uncertainty and comparison of all tests");
   slump_options.control.callback = nullptr;
-  found->at.parameters = *calibration.oedometer.result.parameters;
-  found->runs = runs;
+  found.at.parameters = *calibration.oedometer.result.parameters;
+  found.runs = runs;
   const std::vector<ParameterId>& last_list = later_slump_list.empty() ? slump_list : later_slump_list;
-  auto slump = assess_slump(study, *found, last_list, slump_options);
+  auto slump = assess_slump(study, found, last_list, slump_options);
   if (!slump) return tl::unexpected(slump.error());
   calibration.slump = std::move(*slump);
   JointFitOptions joint_options;

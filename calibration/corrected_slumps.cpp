@@ -2,6 +2,9 @@
 #include "calibration/corrected_slumps.hpp"
 
 #include <algorithm>
+#include <iterator>
+
+#include "calibration/outline_volume.hpp"
 
 namespace isotach::calibration {
 
@@ -23,13 +26,13 @@ SlumpExperiments make_experiments(const datasets::Study& study, const effects::V
 
 /// The study's tests in their order. D_r stays: the oedometer's gauge has been applied.
 Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
-                     const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
-                     int threads) {
+                     const model::Parameters<double>& at, const SlumpMoves& moves,
+                     const SimulationError& error, int threads) {
   const Experiments in_order(all.begin(), all.end());
-  return Problem(
-      in_order,
-      Parametrisation(at, wanted, {study.fit.bounds, {}, study.fit.slump_effects}, GaugeChoice{}, in_order),
-      threads);
+  const CoordinateSettings settings{study.fit.bounds, moves.priors, study.fit.slump_effects};
+  Problem problem(in_order, Parametrisation(at, moves.wanted, settings, GaugeChoice{}, in_order), threads);
+  problem.set_common_error(common_error_of(fitted_of(all), error));
+  return problem;
 }
 
 /// Whether a coordinate moves the mud.
@@ -38,6 +41,17 @@ bool is_mud(const Coordinate& coordinate) {
 }
 
 }  // namespace
+
+SlumpExperiments fitted_of(const SlumpExperiments& all) {
+  SlumpExperiments fitted;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(fitted),
+               [](const auto& test) { return !test->held_out(); });
+  return fitted;
+}
+
+CommonError common_error_of(const SlumpExperiments& fitted, const SimulationError& error) {
+  return CommonError(directions_of(error, fitted)).with(direction_of_volume(fitted));
+}
 
 SlumpPlace CorrectedSlumps::place_at(const std::vector<double>& x) const {
   const Parametrisation& parametrisation = problem.parametrisation();
@@ -51,12 +65,11 @@ SlumpPlace CorrectedSlumps::place_at(const std::vector<double>& x) const {
 }
 
 tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study& study,
-                                                           const SlumpPlace& place,
-                                                           const std::vector<model::ParameterId>& wanted,
+                                                           const SlumpPlace& place, const SlumpMoves& moves,
                                                            const experiments::Simulate& simulate,
                                                            const SimulationError& error, int threads) {
   SlumpExperiments tests = make_experiments(study, place.effects, simulate, error, {});
-  Problem problem = make_problem(tests, study, place.parameters, wanted, threads);
+  Problem problem = make_problem(tests, study, place.parameters, moves, error, threads);
   std::vector<double> start = problem.parametrisation().start();
   const auto& coordinates = problem.parametrisation().coordinates();
   auto mud = place.mud.begin();
@@ -69,7 +82,7 @@ tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study
   if (!corrections) return tl::unexpected(corrections.error());
   if (corrections->any()) {
     tests = make_experiments(study, place.effects, simulate, error, *corrections);
-    problem = make_problem(tests, study, place.parameters, wanted, threads);
+    problem = make_problem(tests, study, place.parameters, moves, error, threads);
   }
   return CorrectedSlumps{std::move(tests), std::move(problem), std::move(start), std::move(*corrections)};
 }

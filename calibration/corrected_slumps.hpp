@@ -14,6 +14,13 @@ namespace isotach::calibration {
 
 using SlumpExperiments = std::vector<std::shared_ptr<const experiments::SlumpExperiment>>;
 
+/// Those that are not held out.
+[[nodiscard]] SlumpExperiments fitted_of(const SlumpExperiments& all);
+
+/// What residuals of slump tests share: what the simulations' numerics do alike to all of them, and what the
+/// volume of their outlines is off by.
+[[nodiscard]] CommonError common_error_of(const SlumpExperiments& fitted, const SimulationError& error);
+
 /// Where a slump fit stands.
 struct SlumpPlace {
   model::Parameters<double> parameters;
@@ -32,10 +39,18 @@ struct CorrectedSlumps {
   [[nodiscard]] SlumpPlace place_at(const std::vector<double>& x) const;
 };
 
+/// What moves in a fit of slump tests, beside the study's free effects and mud.
+struct SlumpMoves {
+  std::vector<model::ParameterId> wanted;
+  datasets::ParameterPriors
+      priors;  ///< of those, from elsewhere than slumps; the study's are the oedometer's
+};
+
 /// Where the study has reference numerics, every test is simulated both ways at `place`. D_r stays: the
-/// oedometer's gauge has been applied.
+/// oedometer's gauge has been applied. The problem's common error is that of
+/// common_error_of().
 [[nodiscard]] tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(
-    const datasets::Study& study, const SlumpPlace& place, const std::vector<model::ParameterId>& wanted,
+    const datasets::Study& study, const SlumpPlace& place, const SlumpMoves& moves,
     const experiments::Simulate& simulate, const SimulationError& error, int threads);
 
 }  // namespace isotach::calibration

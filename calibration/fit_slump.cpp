@@ -8,9 +8,9 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <optional>
 
+#include "calibration/outline_volume.hpp"
 #include "calibration/parallel.hpp"
 #include "calibration/profile_verdict.hpp"
 #include "calibration/uncertainty.hpp"
@@ -65,21 +65,6 @@ double rms_where(const experiments::Values& values, const std::vector<bool>& cho
     if (chosen[i]) subset.push_back(values[i]);
   }
   return subset.empty() ? std::numeric_limits<double>::quiet_NaN() : experiments::root_mean_square(subset);
-}
-
-/// The mean over a test's outlines of volume over that of the filled mould, minus one.
-double volume_excess(const datasets::SlumpTest& test) {
-  const double radius = 0.5 * test.setup.mould.diameter;
-  const double fill = std::numbers::pi * radius * radius * test.setup.mould.fill_height;
-  double sum = 0.0;
-  for (const datasets::Outline& outline : test.outlines) {
-    mpm::Outline copy{outline.time, {}};
-    const datasets::OutlinePoint& first = outline.points.front();
-    if (first.z > 0.0) copy.points.push_back({first.r, 0.0});  // read from above the base: as wide down to it
-    for (const datasets::OutlinePoint& point : outline.points) copy.points.push_back({point.r, point.z});
-    sum += copy.volume() / fill - 1.0;
-  }
-  return sum / static_cast<double>(test.outlines.size());
 }
 
 /// Names the tests whose outlines cannot have the volume that the mould held.
@@ -239,8 +224,8 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
   }
   SlumpFitOptions pass_options = options;
   for (int pass = 1;; ++pass) {
-    const auto slumps =
-        corrected_slumps(study, found.at, wanted, simulate, found.simulation_error, options.threads);
+    const auto slumps = corrected_slumps(study, found.at, {wanted, options.priors}, simulate,
+                                         found.simulation_error, options.threads);
     if (!slumps) return tl::unexpected(slumps.error());
     const std::vector<double>& from = slumps->start;
     auto best = search_by_routes(slumps->problem, from, *tally, pass_options, found.others);
@@ -283,27 +268,12 @@ void heed_map(const Problem& problem, const SlumpMap& map, std::vector<double>& 
   result.parameters = *problem.parametrisation().at(answer);
 }
 
-/// Adds to the covariance what the choice of cells and points makes of the answer, and, where there is a map,
-/// the error of its surrogate. Returns by how much each coordinate's variance grew.
-std::vector<double> add_numerics(const Problem& problem, const std::vector<double>& answer,
-                                 const SlumpExperiments& all, const SlumpSurrogate* surrogate,
-                                 SlumpFit& fit) {
-  Eigen::MatrixXd& covariance = fit.result.uncertainty.covariance;
-  std::vector<double> widening(answer.size(), 1.0);
+/// By how much other cells and points would move the answer.
+std::vector<NumericalShift> shifts_of(const Problem& problem, const std::vector<double>& answer,
+                                      const SlumpExperiments& all, const SimulationError& error) {
   const auto at = problem.linearise(answer);
-  if (!at) return widening;
-  SlumpExperiments fitted;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(fitted),
-               [](const auto& test) { return !test->held_out(); });
-  fit.shifts = numerical_shifts(*at, fitted, fit.simulation_error);
-  Eigen::MatrixXd numerics = numerical_covariance(fit.shifts, covariance.rows());
-  if (surrogate != nullptr) numerics += covariance_of_errors(at->jacobian, surrogate->error_directions());
-  for (std::size_t k = 0; k < widening.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    if (covariance(i, i) > 0.0) widening[k] = 1.0 + numerics(i, i) / covariance(i, i);
-  }
-  covariance += numerics;
-  return widening;
+  if (!at) return {};
+  return numerical_shifts(*at, problem.common_error(), fitted_of(all), error);
 }
 
 /// Interval and verdict as a profile has them. `range` is that which judge() wants.
@@ -340,7 +310,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
                                                 const std::vector<model::ParameterId>& wanted,
                                                 const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
-  const auto slumps = corrected_slumps(study, found.at, wanted, counted(options, tally),
+  const auto slumps = corrected_slumps(study, found.at, {wanted, options.priors}, counted(options, tally),
                                        found.simulation_error, options.threads);
   if (!slumps) return tl::unexpected(slumps.error());
   const SlumpExperiments& all = slumps->tests;
@@ -373,11 +343,10 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
         failed, failed == 1 ? "" : "s"));
   }
   result.uncertainty = std::move(*uncertainty);
-  const std::vector<double> widening = add_numerics(problem, answer, all, nullptr, fit);
   if (options.map) {
     tell(options, SlumpFitStage::map);
-    auto map = map_slump(problem, answer, result.uncertainty,
-                         {widening, options.threads, options.seed, options.control});
+    auto map =
+        map_slump(problem, answer, result.uncertainty, {options.threads, options.seed, options.control});
     if (!map) {
       if (map.error().interrupted) return tl::unexpected(map.error());
       result.warnings.push_back("no map, no profiles: " + map.error().message);
@@ -388,10 +357,11 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
       const Problem on_surrogate = with_surrogate(problem, fit.map->surrogate);
       if (auto smooth = estimate_uncertainty(on_surrogate, answer, Correlation::independent)) {
         result.uncertainty = std::move(*smooth);
-        static_cast<void>(add_numerics(on_surrogate, answer, all, fit.map->surrogate.get(), fit));
+        fit.shifts = shifts_of(on_surrogate, answer, all, fit.simulation_error);
       }
     }
   }
+  if (fit.shifts.empty()) fit.shifts = shifts_of(problem, answer, all, fit.simulation_error);
   result.correlation = correlation_of(result.uncertainty.covariance);
   result.estimates = estimate_parameters(problem, answer, result.uncertainty);
   result.local_estimates = estimate_locals(problem, answer, result.uncertainty);

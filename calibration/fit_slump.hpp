@@ -49,6 +49,8 @@ struct SlumpFitOptions {
   std::vector<datasets::SlumpRoute> routes{datasets::SlumpRoute::bobyqa};
   OptimiserControl control;
   experiments::Simulate simulate;  ///< where empty, mpm::run_slump until control.stop
+  /// Of parameters that move, from elsewhere than slumps: the cost counts what they take.
+  datasets::ParameterPriors priors;
   /// Measured at the start values where absent.
   std::optional<SimulationError> simulation_error;
   bool map = true;    ///< profiles and map by a surrogate; intervals then are those of the profiles

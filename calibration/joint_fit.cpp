@@ -75,7 +75,7 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
   const model::Parameters<double>& start = *oedometer.result.parameters;
   const experiments::Simulate simulate =
       options.simulate ? options.simulate : plain_simulation(options.control.stop);
-  Experiments slumps;
+  SlumpExperiments slumps;
   for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
     if (study.slump_tests[i].hold_out) continue;
     datasets::SlumpTest found = study.slump_tests[i];
@@ -86,9 +86,10 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
             simulate, slump.simulation_error.error, slump.effects, {}, {}, slump.corrections.of(i)}));
   }
   const CoordinateSettings settings{study.fit.bounds, study.fit.priors, study.fit.oedometer_effects};
-  const Problem simulated(slumps,
-                          Parametrisation(start, wanted, {study.fit.bounds, {}}, oedometer.result.gauge),
-                          options.threads);
+  Problem simulated({slumps.begin(), slumps.end()},
+                    Parametrisation(start, wanted, {study.fit.bounds, {}}, oedometer.result.gauge),
+                    options.threads);
+  simulated.set_common_error(common_error_of(slumps, slump.simulation_error));
 
   JointFit fit;
   TrainingSet set;
@@ -106,15 +107,16 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
   fit.points = set.points.size() + set.failed;
   fit.failed = set.failed;
   fit.surrogate = std::make_shared<SlumpSurrogate>(simulated, box, set);
-  const Experiments stand_ins = with_surrogate(simulated, fit.surrogate).fitted();
+  const Problem slump_alone = with_surrogate(simulated, fit.surrogate);
 
   Experiments all(oedometer.experiments.begin(), oedometer.experiments.end());
   const std::size_t oedometer_values = values_of(all);
-  all.insert(all.end(), stand_ins.begin(), stand_ins.end());
+  all.insert(all.end(), slump_alone.fitted().begin(), slump_alone.fitted().end());
   Problem joint(all, Parametrisation(start, wanted, settings, oedometer.result.gauge, all), options.threads);
   std::vector<ExperimentWeights> weights = oedometer.noise.weights;
   weights.resize(joint.fitted().size());
   joint.set_weights(weights);
+  joint.set_common_error(slump_alone.common_error().below(static_cast<Eigen::Index>(oedometer_values)));
 
   FitResult& result = fit.result;
   result.free = joint.parametrisation().free();
@@ -137,7 +139,6 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
 
   // each kind by itself: the oedometer's answer, and the slumps' with what both share
   fit.oedometer_least = oedometer.result.main.cost;
-  const Problem slump_alone = with_surrogate(simulated, fit.surrogate);
   CeresOptions held;
   for (std::size_t k = 0; k < dimension; ++k) {
     const auto id = *slump_alone.parametrisation().coordinates()[k].id;

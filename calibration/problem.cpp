@@ -92,6 +92,7 @@ tl::expected<Eigen::VectorXd, experiments::PredictionFailure> Problem::residuals
     }
     row += count;
   }
+  residuals = common_.whitened(std::move(residuals));
   append_priors(x, residuals, nullptr);
   return residuals;
 }
@@ -124,6 +125,7 @@ Linearised Problem::weighted(const std::vector<experiments::Linearisation>& pred
     }
     row += count;
   }
+  both = common_.whitened(std::move(both));
   return {both.col(columns), both.leftCols(columns)};
 }
 

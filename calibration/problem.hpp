@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "calibration/common_error.hpp"
 #include "calibration/noise_model.hpp"
 #include "calibration/parametrisation.hpp"
 #include "experiments/experiment.hpp"
@@ -49,6 +50,9 @@ class Problem {
   void set_threads(int threads) { threads_ = threads; }
   /// Weights of each fitted experiment.
   void set_weights(std::vector<ExperimentWeights> weights) { weights_ = std::move(weights); }
+  /// What the fitted experiments' residuals share beyond what each experiment's own noise says.
+  void set_common_error(CommonError error) { common_ = std::move(error); }
+  [[nodiscard]] const CommonError& common_error() const { return common_; }
 
   /// The same problem with other experiments in the place of fitted(), of the same sizes.
   [[nodiscard]] Problem with_fitted(Experiments experiments) const {
@@ -82,6 +86,7 @@ class Problem {
   Parametrisation parametrisation_;
   std::vector<std::size_t> priors_;  // coordinates that have one
   std::vector<ExperimentWeights> weights_;
+  CommonError common_;
   std::size_t value_count_ = 0;
   int threads_;
 };

@@ -209,14 +209,32 @@ Eigen::VectorXd stacked_change(const std::vector<std::shared_ptr<const experimen
   return change;
 }
 
+Eigen::MatrixXd directions_of(
+    const SimulationError& error,
+    const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& fitted) {
+  const auto all_ran = [](const std::vector<std::optional<mpm::SlumpResult>>& runs) {
+    return std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.has_value(); });
+  };
+  std::vector<Eigen::VectorXd> columns;
+  for (const NumericalVariant& variant : error.variants) {
+    if (!all_ran(error.runs) || !all_ran(variant.runs)) continue;
+    columns.push_back(stacked_change(fitted, error.runs, variant.runs));
+  }
+  if (columns.empty()) return {};
+  Eigen::MatrixXd directions(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) directions.col(static_cast<Eigen::Index>(k)) = columns[k];
+  return directions;
+}
+
 std::vector<NumericalShift> numerical_shifts(
-    const Linearised& at, const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
+    const Linearised& at, const CommonError& common,
+    const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
     const SimulationError& error) {
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(at.jacobian);
   std::vector<NumericalShift> shifts;
   for (const NumericalVariant& variant : error.variants) {
     Eigen::VectorXd difference = Eigen::VectorXd::Zero(at.jacobian.rows());  // priors below stay zero
-    const Eigen::VectorXd change = stacked_change(tests, error.runs, variant.runs);
+    const Eigen::VectorXd change = common.whitened(stacked_change(tests, error.runs, variant.runs));
     difference.head(change.size()) = change;
     shifts.push_back({variant.name, -solver.solve(difference)});
   }

@@ -8,6 +8,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "calibration/common_error.hpp"
 #include "calibration/fit_result.hpp"
 #include "calibration/problem.hpp"
 #include "datasets/study.hpp"
@@ -50,20 +51,27 @@ struct SimulationError {
     const std::vector<std::optional<mpm::SlumpResult>>& from,
     const std::vector<std::optional<mpm::SlumpResult>>& to);
 
+/// What each variant of the numerics that was measured changes in the residuals of the tests that are fitted,
+/// one column a variant. A variant that failed in some test gives none.
+[[nodiscard]] Eigen::MatrixXd directions_of(
+    const SimulationError& error,
+    const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& fitted);
+
 /// How far each variant moves the answer of a fit: by what its outlines differ, common to all tests.
 struct NumericalShift {
   std::string variant;
   Eigen::VectorXd shift;  ///< of the coordinates
 };
 
-/// The shifts by the linearised problem; its fitted experiments are `tests`, or stand in for them. A test
-/// that a variant could not simulate does not shift anything.
+/// The shifts by a linearised problem; its fitted experiments are `tests`, or stand in for them, and `common`
+/// is what whitened it. A test that a variant could not simulate does not shift anything.
 [[nodiscard]] std::vector<NumericalShift> numerical_shifts(
-    const Linearised& at, const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
+    const Linearised& at, const CommonError& common,
+    const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
     const SimulationError& error);
 
 /// The sum of the shifts' outer products: what the choice of cells and points adds to the covariance of the
-/// coordinates. Other than the errors in the covariance of outlines it does not shrink with more tests.
+/// coordinates where nothing whitened the problem. It does not shrink with more tests.
 [[nodiscard]] Eigen::MatrixXd numerical_covariance(const std::vector<NumericalShift>& shifts,
                                                    Eigen::Index coordinates);
 

@@ -146,21 +146,11 @@ tl::expected<SlumpMap, FitFailure> map_slump(const Problem& problem, const std::
     map.best = best.coordinates;
     map.cost = best.cost;
     map.profiles.clear();
-    Eigen::MatrixXd errors =
-        Eigen::MatrixXd::Zero(uncertainty.covariance.rows(), uncertainty.covariance.cols());
-    if (const auto at = on_surrogate.linearise(map.best)) {
-      errors = covariance_of_errors(at->jacobian, map.surrogate->error_directions());
-    }
     for (std::size_t k = 0; k < answer.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       const double error = uncertainty.in_null_direction(k) ? std::numeric_limits<double>::infinity()
                                                             : std::sqrt(uncertainty.covariance(i, i));
-      double widening = options.widening.empty() ? 1.0 : options.widening[k];
-      if (std::isfinite(error) && error > 0.0) {
-        widening +=
-            errors(i, i) * widening / (error * error);  // the problem's own variance is error^2/widening
-      }
-      map.profiles.push_back(profile(on_surrogate, map.best, k, error, threshold * widening, quiet));
+      map.profiles.push_back(profile(on_surrogate, map.best, k, error, threshold, quiet));
     }
     if (quiet.stopped()) return tl::unexpected(FitFailure{"interrupted", true});
     map.enlarged = round;

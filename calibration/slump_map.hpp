@@ -35,10 +35,6 @@ struct SlumpMap {
 };
 
 struct SlumpMapOptions {
-  /// By coordinate: how much larger its variance is than the problem's residuals let it be; then the misfit
-  /// has to rise by as much more where an interval ends. Empty: not at all. The surrogate's own error is
-  /// added to it.
-  std::vector<double> widening;
   int threads = 1;
   unsigned seed = 1;
   OptimiserControl control;  ///< its callback hears of simulations done

@@ -1,7 +1,6 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/slump_surrogate.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -170,14 +169,6 @@ Eigen::VectorXd SlumpSurrogate::values(const std::vector<double>& x) const {
   return result;
 }
 
-Eigen::MatrixXd covariance_of_errors(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& directions) {
-  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(jacobian.rows(), directions.cols());
-  errors.topRows(directions.rows()) = directions;
-  const Eigen::MatrixXd moves =
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(jacobian).solve(errors);
-  return moves * moves.transpose();
-}
-
 Problem with_surrogate(const Problem& problem, std::shared_ptr<const SlumpSurrogate> surrogate) {
   Experiments stand_ins;
   Eigen::Index first = 0;
@@ -187,6 +178,7 @@ Problem with_surrogate(const Problem& problem, std::shared_ptr<const SlumpSurrog
     first += static_cast<Eigen::Index>(test->measured().size());
   }
   Problem result = problem.with_fitted(std::move(stand_ins));
+  result.set_common_error(problem.common_error().with(surrogate->error_directions()));
   result.set_threads(1);
   return result;
 }

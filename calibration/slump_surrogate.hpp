@@ -65,12 +65,8 @@ class SlumpSurrogate {
   double error_ = 0.0;
 };
 
-/// What errors of the predictions, in directions as SlumpSurrogate::error_directions() has them, add to the
-/// covariance of the coordinates. The Jacobian's first rows are those of the directions.
-[[nodiscard]] Eigen::MatrixXd covariance_of_errors(const Eigen::MatrixXd& jacobian,
-                                                   const Eigen::MatrixXd& directions);
-
-/// The problem with its fitted experiments' predictions taken from the surrogate.
+/// The problem with its fitted experiments' predictions taken from the surrogate, whose error they share
+/// beside what they shared before.
 [[nodiscard]] Problem with_surrogate(const Problem& problem, std::shared_ptr<const SlumpSurrogate> surrogate);
 
 }  // namespace isotach::calibration

@@ -33,7 +33,8 @@ struct SlumpCandidate {
   std::vector<const effects::Effect*> added;
   SlumpTests tests;  ///< all of the study, with these effects
   std::shared_ptr<const calibration::Problem> problem;
-  calibration::SecantPoint at;      ///< residuals freed of the error that all tests share (common_error.hpp)
+  calibration::SecantPoint
+      at;  ///< residuals freed of the error that all tests share (slump_common_error.hpp)
   effects::Values<double> effects;  ///< all that are on, at the answer
   std::optional<model::Parameters<double>> parameters;
   double chi_squared = 0.0;  ///< priors included

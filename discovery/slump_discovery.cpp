@@ -11,8 +11,8 @@
 #include "calibration/fit_slump.hpp"
 #include "calibration/parallel.hpp"
 #include "datasets/slump_effects.hpp"
-#include "discovery/common_error.hpp"
 #include "discovery/limits.hpp"
+#include "discovery/slump_common_error.hpp"
 #include "discovery/slump_disagreement.hpp"
 #include "discovery/slump_next.hpp"
 #include "discovery/slump_verdict.hpp"
@@ -172,10 +172,8 @@ class SlumpSearch {
   /// other cells would move the coordinates.
   void know(const SlumpCandidate& bare, const calibration::Linearised& at) {
     if (!options_.knowledge) return;
-    SlumpTests fitted;
-    std::copy_if(bare.tests.begin(), bare.tests.end(), std::back_inserter(fitted),
-                 [](const auto& test) { return !test->held_out(); });
-    const auto shifts = calibration::numerical_shifts(at, fitted, basis_.error);
+    const auto shifts =
+        calibration::numerical_shifts(at, {}, calibration::fitted_of(bare.tests), basis_.error);
     const Eigen::MatrixXd numerics = calibration::numerical_covariance(shifts, at.jacobian.cols());
     basis_.priors = options_.knowledge->priors;
     const auto& coordinates = bare.problem->parametrisation().coordinates();
@@ -406,7 +404,7 @@ class SlumpSearch {
   const datasets::Study& study_;
   const SlumpDiscoverOptions& options_;
   SlumpBasis basis_;
-  CommonError common_;
+  calibration::CommonError common_;
   std::atomic<long> simulations_{0};
   ScoreTest null_;  ///< how much noise lets the best of all effects gain
   SlumpDiscovery found_;

@@ -39,17 +39,6 @@ TEST(SlumpSurrogate, KnowsALineExactly) {
   }
 }
 
-// Of J = (1 1; 0 2; 0 0) errors (1 1 1)^T move the solution by J^+ (1 1 1)^T = (1/2 1/2)^T; priors below the
-// directions' rows have no error.
-TEST(SlumpSurrogate, ErrorsMoveCoordinatesAsLeastSquaresDoes) {
-  Eigen::MatrixXd jacobian(3, 2);
-  jacobian << 1.0, 1.0, 0.0, 2.0, 0.0, 0.0;
-  const Eigen::Matrix2d covariance = covariance_of_errors(jacobian, Eigen::Vector3d(1.0, 1.0, 1.0));
-  EXPECT_LT((covariance - Eigen::Matrix2d::Constant(0.25)).cwiseAbs().maxCoeff(), 1e-14);
-  const Eigen::Matrix2d above = covariance_of_errors(jacobian, Eigen::VectorXd::Constant(1, 1.0));
-  EXPECT_LT((above - Eigen::Matrix2d(Eigen::Vector2d(1.0, 0.0).asDiagonal())).cwiseAbs().maxCoeff(), 1e-14);
-}
-
 TEST(SlumpSurrogate, PointsThatFailAreLeftOutAndCounted) {
   LineExperiment experiment = line(0.1);
   experiment.refuse(

@@ -120,17 +120,21 @@ TEST(CalibrationReport, ComparesIvOfBothKindsOfTest) {
   calibration::Calibration calibration = small_calibration();
   const auto I_v = static_cast<std::size_t>(model::ParameterId::I_v);
   calibration.first_oedometer.result.free.push_back(model::ParameterId::I_v);
-  calibration.slump.result.estimates[I_v] = {model::ParameterId::I_v,         0.03, 0.001, 0.028, 0.032,
-                                             calibration::Verdict::identified};
+  calibration.slump_alone.result.estimates[I_v] = {model::ParameterId::I_v,         0.03, 0.001, 0.028, 0.032,
+                                                   calibration::Verdict::identified};
   auto& estimate = calibration.first_oedometer.result.estimates[I_v];
   // ln(0.0325/0.03) = 0.08004 over hypot(0.001/0.0325, 0.001/0.03) = 0.04536
   estimate = {model::ParameterId::I_v, 0.0325, 0.001, 0.0306, 0.0345, calibration::Verdict::identified};
   expect_parts(calibration_report(run_of("calibrate"), small_study(), calibration).html(),
                {"1.8 combined standard errors of ln I_v apart, so the two kinds of test agree"});
+  calibration.slump.result.adequate = false;
   // ln(0.05/0.03) = 0.5108 over hypot(0.02, 0.001/0.03) = 0.03887
   estimate = {model::ParameterId::I_v, 0.05, 0.001, 0.048, 0.052, calibration::Verdict::identified};
   expect_parts(calibration_report(run_of("calibrate"), small_study(), calibration).html(),
-               {"13 combined standard errors of ln I_v apart, so the model is not right for both"});
+               {"13 combined standard errors of ln I_v apart, so no one set of parameters serves both"});
+  calibration.oedometer.result.adequate = calibration.slump.result.adequate = true;
+  expect_parts(calibration_report(run_of("calibrate"), small_study(), calibration).html(),
+               {"ln I_v apart, though one set of parameters meets all fitted tests"});
 }
 
 }  // namespace
