@@ -1,10 +1,12 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 // Regenerates docs/mpm-verification.md: every problem of mpm_problems/, in full.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bench/mpm_problems/breathing_cylinder.hpp"
@@ -17,6 +19,7 @@
 #include "bench/mpm_problems/undrained_column.hpp"
 #include "bench/mpm_problems/vhp_slump.hpp"
 #include "bench/mpm_problems/yield_stress_flow.hpp"
+#include "calibration/parallel.hpp"
 
 namespace {
 
@@ -48,12 +51,25 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "usage: mpm_verification FILE.md\n");
     return 2;
   }
+  const std::size_t count = problems().size();
+  std::vector<std::string> sections(count);
+  std::vector<std::exception_ptr> failures(count);
+  const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  isotach::calibration::parallel_for(count, threads, [&](std::size_t k) {
+    const std::size_t problem = count - 1 - k;  // the longest are the last
+    try {
+      const Section section = problems()[problem]();
+      std::printf("%s\n", section.title.c_str());
+      std::fflush(stdout);
+      sections[problem] = markdown(section);
+    } catch (...) {
+      failures[problem] = std::current_exception();
+    }
+  });
   std::string report = "# Verification of the MPM engine\n\nWritten by `mpm_verification` (bench).\n\n";
-  for (const auto& problem : problems()) {
-    const Section section = problem();
-    std::printf("%s\n", section.title.c_str());
-    std::fflush(stdout);
-    report += markdown(section);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (failures[k]) std::rethrow_exception(failures[k]);
+    report += sections[k];
   }
   std::ofstream file(argv[1]);
   file << report;

@@ -8,7 +8,7 @@ namespace isotach::mpm {
 
 /// Goes up with every change of the law, its integration or the engine that moves a result in its last digit.
 /// Results kept by another number are not taken for this one's.
-inline constexpr int kEngineVersion = 4;
+inline constexpr int kEngineVersion = 5;
 
 /// All of the code that a result depends on, to the last digit: Isotach's version, the engine's, the compiler
 /// and the width of its vector registers.

@@ -13,10 +13,6 @@ namespace {
 // Part of the slip velocity that the wall takes away in a step: below 1 for stability with neighbours that
 // share nodes, and gone within a few steps.
 constexpr double kStick = 0.25;
-// Part of a point's size that mud inside is pressed into the wall at most: ten times what the pressure of a
-// fill does. A point that is deeper, up to twice as deep, has come from elsewhere, round the rim, and to
-// answer with the wall's stiffness would shoot it through the mud.
-constexpr double kFirm = 0.125;
 
 }  // namespace
 
@@ -60,7 +56,9 @@ WallForce MouldContact::force(const WallPoint& point, double rim, double rim_vel
   if (point.r > radius_) return {outer_traction(point, pressure) * area, 0.0};
   const double depth = point.r + half_size_ - radius_ + std::max(0.0, preload(point.z));
   if (depth <= 0.0) return {};
-  const double firm = 2.0 * half_size_ * kFirm;
+  // a point that is deeper than firm has come from elsewhere, round the rim, and to answer with the wall's
+  // stiffness would shoot it through the mud
+  const double firm = constants_.firm_depth;
   const double most =
       share < 1.0
           ? pressure

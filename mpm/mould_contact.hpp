@@ -39,6 +39,9 @@ class MouldContact final : public PointForce {
     double normal_stiffness;  ///< Pa/m: traction for a depth of penetration
     /// Pa s/m: traction for a velocity of penetration, so that the wall does not ring.
     double normal_damping;
+    /// m: mud inside is pressed into the wall so far at most. From there on, up to twice as far, the wall
+    /// answers less and less firmly, down to the mud's own radial pressure.
+    double firm_depth;
     /// Weight of the mud (N/m3): the wall carries the pressure of the filled mould without being pushed.
     double unit_weight = 0.0;
   };

@@ -26,6 +26,9 @@ constexpr double kLeastPressureShare = 1e-3;  // of the initial p': below it the
 constexpr double kResidualCells = 60.0;
 constexpr double kWallStiffness = 0.5;  // of K_w/n per cell size
 constexpr double kWallDamping = 0.5;    // of the mixture's impedance rho c
+// Of the cell size, as the stiffness goes with its inverse: several times as deep as a fill presses, and no
+// deeper than the centres of the smallest points may come.
+constexpr double kWallFirmDepth = 0.0625;
 
 double divided_cell_size(const SlumpSetup& setup) {
   const double radius = 0.5 * setup.mould.diameter;
@@ -141,7 +144,7 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
   body.flows = true;
   engine_.add(std::move(body));
   const MouldContact::Constants wall{width, kWallStiffness * bulk / h, kWallDamping * impedance,
-                                     initial_.density * kGravity};
+                                     kWallFirmDepth * h, initial_.density * kGravity};
   engine_.add(std::make_unique<MouldContact>(setup.mould, wall));
   if (setup.effects.surface_tension > 0.0) {
     engine_.add(std::make_unique<SurfaceTension>(setup.effects.surface_tension, engine_.grid()));

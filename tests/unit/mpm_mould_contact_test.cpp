@@ -21,7 +21,7 @@ constexpr double kArea = kRadius * kSize;  // of the wall a point covers, per ra
 
 MouldContact contact(const Wall& wall, double unit_weight = 0.0) {
   return MouldContact({2.0 * kRadius, kFill, kLift, wall, 0.0, {}},
-                      {kSize, kStiffness, kDamping, unit_weight});
+                      {kSize, kStiffness, kDamping, 0.125 * kSize, unit_weight});
 }
 
 /// A point, resting unless said otherwise, with its outer edge `depth` beyond the wall.

@@ -32,6 +32,17 @@ TEST(SlumpConvergence, CellsOfEightMillimetresAreWithinThreePercentOfFineOnesAnd
   expect_within(run_seed_mud(seed_test_1(4 * kMillimetre, {1.0, 5.0})), fine, 0.015);
 }
 
+// The wall's stiffness goes with the cells, so what it may be pressed in by must not go with the points.
+TEST(SlumpConvergence, SixteenPointsACellSlumpAsNineDo) {
+  mpm::SlumpSetup setup = seed_test_1(4 * kMillimetre, {1.0});
+  setup.numerics.points_per_cell = 9;
+  const mpm::SlumpResult nine = run_seed_mud(setup);
+  setup.numerics.points_per_cell = 16;
+  const mpm::SlumpResult sixteen = run_seed_mud(setup);
+  ASSERT_GT(9 * sixteen.points, 15 * nine.points);
+  expect_within(nine, sixteen, 0.015);
+}
+
 void run_until(mpm::SlumpRun& run, double time) {
   while (run.time() < time) {
     const auto failure = run.step(time);
