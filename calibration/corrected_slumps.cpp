@@ -26,11 +26,11 @@ SlumpExperiments make_experiments(const datasets::Study& study, const effects::V
 
 /// The study's tests in their order. D_r stays: the oedometer's gauge has been applied.
 Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
-                     const model::Parameters<double>& at, const SlumpMoves& moves,
+                     const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
                      const SimulationError& error, int threads) {
   const Experiments in_order(all.begin(), all.end());
-  const CoordinateSettings settings{study.fit.bounds, moves.priors, study.fit.slump_effects};
-  Problem problem(in_order, Parametrisation(at, moves.wanted, settings, GaugeChoice{}, in_order), threads);
+  const CoordinateSettings settings{study.fit.bounds, {}, study.fit.slump_effects};
+  Problem problem(in_order, Parametrisation(at, wanted, settings, GaugeChoice{}, in_order), threads);
   problem.set_common_error(common_error_of(fitted_of(all), error));
   return problem;
 }
@@ -65,11 +65,12 @@ SlumpPlace CorrectedSlumps::place_at(const std::vector<double>& x) const {
 }
 
 tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study& study,
-                                                           const SlumpPlace& place, const SlumpMoves& moves,
+                                                           const SlumpPlace& place,
+                                                           const std::vector<model::ParameterId>& wanted,
                                                            const experiments::Simulate& simulate,
                                                            const SimulationError& error, int threads) {
   SlumpExperiments tests = make_experiments(study, place.effects, simulate, error, {});
-  Problem problem = make_problem(tests, study, place.parameters, moves, error, threads);
+  Problem problem = make_problem(tests, study, place.parameters, wanted, error, threads);
   std::vector<double> start = problem.parametrisation().start();
   const auto& coordinates = problem.parametrisation().coordinates();
   auto mud = place.mud.begin();
@@ -82,7 +83,7 @@ tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study
   if (!corrections) return tl::unexpected(corrections.error());
   if (corrections->any()) {
     tests = make_experiments(study, place.effects, simulate, error, *corrections);
-    problem = make_problem(tests, study, place.parameters, moves, error, threads);
+    problem = make_problem(tests, study, place.parameters, wanted, error, threads);
   }
   return CorrectedSlumps{std::move(tests), std::move(problem), std::move(start), std::move(*corrections)};
 }

@@ -39,18 +39,10 @@ struct CorrectedSlumps {
   [[nodiscard]] SlumpPlace place_at(const std::vector<double>& x) const;
 };
 
-/// What moves in a fit of slump tests, beside the study's free effects and mud.
-struct SlumpMoves {
-  std::vector<model::ParameterId> wanted;
-  datasets::ParameterPriors
-      priors;  ///< of those, from elsewhere than slumps; the study's are the oedometer's
-};
-
 /// Where the study has reference numerics, every test is simulated both ways at `place`. D_r stays: the
-/// oedometer's gauge has been applied. The problem's common error is that of
-/// common_error_of().
+/// oedometer's gauge has been applied. The problem's common error is that of common_error_of().
 [[nodiscard]] tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(
-    const datasets::Study& study, const SlumpPlace& place, const SlumpMoves& moves,
+    const datasets::Study& study, const SlumpPlace& place, const std::vector<model::ParameterId>& wanted,
     const experiments::Simulate& simulate, const SimulationError& error, int threads);
 
 }  // namespace isotach::calibration

@@ -211,21 +211,27 @@ tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study,
                                                    const model::Parameters<double>& start,
                                                    const std::vector<model::ParameterId>& wanted,
                                                    const SlumpFitOptions& options) {
+  return search_slump(study, SlumpPlace{start, study.effects, {}}, wanted, options);
+}
+
+tl::expected<SlumpSearch, FitFailure> search_slump(const datasets::Study& study, const SlumpPlace& start,
+                                                   const std::vector<model::ParameterId>& wanted,
+                                                   const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
   const experiments::Simulate simulate = counted(options, tally);
-  SlumpSearch found{{start, study.effects, {}}, {}, {}, {}, {}, {}};
+  SlumpSearch found{start, {}, {}, {}, {}, {}};
   if (options.simulation_error) {
     found.simulation_error = *options.simulation_error;
   } else {
     tell(options, SlumpFitStage::simulation_error);
-    auto measured = measure_simulation_error(study, start, simulate, options.threads);
+    auto measured = measure_simulation_error(study, start.parameters, simulate, options.threads);
     if (!measured) return tl::unexpected(measured.error());
     found.simulation_error = std::move(*measured);
   }
   SlumpFitOptions pass_options = options;
   for (int pass = 1;; ++pass) {
-    const auto slumps = corrected_slumps(study, found.at, {wanted, options.priors}, simulate,
-                                         found.simulation_error, options.threads);
+    const auto slumps =
+        corrected_slumps(study, found.at, wanted, simulate, found.simulation_error, options.threads);
     if (!slumps) return tl::unexpected(slumps.error());
     const std::vector<double>& from = slumps->start;
     auto best = search_by_routes(slumps->problem, from, *tally, pass_options, found.others);
@@ -310,7 +316,7 @@ tl::expected<SlumpFit, FitFailure> assess_slump(const datasets::Study& study, co
                                                 const std::vector<model::ParameterId>& wanted,
                                                 const SlumpFitOptions& options) {
   const auto tally = std::make_shared<RunTally>();
-  const auto slumps = corrected_slumps(study, found.at, {wanted, options.priors}, counted(options, tally),
+  const auto slumps = corrected_slumps(study, found.at, wanted, counted(options, tally),
                                        found.simulation_error, options.threads);
   if (!slumps) return tl::unexpected(slumps.error());
   const SlumpExperiments& all = slumps->tests;

@@ -49,8 +49,6 @@ struct SlumpFitOptions {
   std::vector<datasets::SlumpRoute> routes{datasets::SlumpRoute::bobyqa};
   OptimiserControl control;
   experiments::Simulate simulate;  ///< where empty, mpm::run_slump until control.stop
-  /// Of parameters that move, from elsewhere than slumps: the cost counts what they take.
-  datasets::ParameterPriors priors;
   /// Measured at the start values where absent.
   std::optional<SimulationError> simulation_error;
   bool map = true;    ///< profiles and map by a surrogate; intervals then are those of the profiles
@@ -72,9 +70,13 @@ struct SlumpSearch {
   std::vector<std::string> warnings;
 };
 
-/// Moves `wanted` from `start` to fit the study's slump tests that are not held out; tests of one evaluation
-/// run in parallel. Where the study has reference numerics, simulations are corrected to them at the start,
-/// and the search goes on from its answer, corrected there, until it stays.
+/// Moves `wanted`, and the study's free effects and mud, from `start` to fit the slump tests that are not
+/// held out; tests of one evaluation run in parallel. Where the study has reference numerics, simulations are
+/// corrected to them at the start, and the search goes on from its answer, corrected there, until it stays.
+[[nodiscard]] tl::expected<SlumpSearch, FitFailure> search_slump(
+    const datasets::Study& study, const SlumpPlace& start, const std::vector<model::ParameterId>& wanted,
+    const SlumpFitOptions& options);
+/// The same from the effects and the mud that the study states.
 [[nodiscard]] tl::expected<SlumpSearch, FitFailure> search_slump(
     const datasets::Study& study, const model::Parameters<double>& start,
     const std::vector<model::ParameterId>& wanted, const SlumpFitOptions& options);

@@ -59,7 +59,7 @@ struct Coordinate {
 /// What a study says of the coordinates; of the material's in the order of ParameterId.
 struct CoordinateSettings {
   std::array<std::optional<datasets::Bounds>, model::kParameterCount> bounds{};
-  datasets::ParameterPriors priors{};
+  std::array<std::optional<datasets::Prior>, model::kParameterCount> priors{};
   std::vector<datasets::FreeEffect> effects{};  ///< of which the bounds are read
 };
 

@@ -39,9 +39,6 @@ struct Prior {
   double std_error;  ///< SI, > 0
 };
 
-/// In the order of ParameterId.
-using ParameterPriors = std::array<std::optional<Prior>, model::kParameterCount>;
-
 /// Where an oedometer fit starts.
 enum class FitStart {
   data,     ///< graphical constructions on the compression curves; what they cannot give from [material]
@@ -86,7 +83,7 @@ struct FitSettings {
   std::optional<double>
       reference_rate;  ///< axial strain rate (1/s); default: of the first loading stage fitted
   std::array<std::optional<Bounds>, model::kParameterCount> bounds;  ///< in the order of ParameterId
-  ParameterPriors priors;                                            ///< of oedometer fits
+  std::array<std::optional<Prior>, model::kParameterCount> priors;   ///< in the order of ParameterId
   FitStart start = FitStart::data;
   int starts = 12;    ///< of the multi-start, the first one included; >= 1
   int bootstrap = 0;  ///< samples of the block bootstrap; 0: none

@@ -41,18 +41,15 @@ Table round_table(const Calibration& calibration) {
   };
   for (std::size_t k = 0; k < calibration.rounds.size(); ++k) {
     add(fmt::format("{}", k + 1), "oedometer fit", calibration.rounds[k].after_oedometer);
-    add("", "slump fit", calibration.rounds[k].after_slump);
+    add("", calibration.I_v_is_joint ? "joint fit" : "slump fit", calibration.rounds[k].after_slump);
   }
   add("last", "oedometer fit", *calibration.oedometer.result.parameters);
   table.notes = {
-      "The oedometer fit takes I_v from the slump fit before it, where that moves I_v; in the first round it "
-      "is that of the study, or its own."};
-  if (calibration.handed_on) {
-    table.notes.push_back(
-        fmt::format("The slump fits of the chain hold what the oedometer alone says of I_v, {}, as known "
-                    "before: their I_v is that of both kinds of test.",
-                    format_with_error(calibration.handed_on->mean, calibration.handed_on->std_error)));
-  }
+      calibration.I_v_is_joint
+          ? "Both kinds of test hold I_v, so it is that of the joint fit, at which the oedometer is fitted "
+            "last."
+          : "The oedometer fit takes I_v from the slump fit before it, where that moves I_v; in the first "
+            "round it is that of the study, or its own."};
   std::vector<std::string> meanings;
   for (const ParameterId id : kShown) {
     meanings.push_back(fmt::format("{}: {}", model::info(id).name, model::info(id).meaning));
@@ -156,21 +153,33 @@ void add_joint_fit(Page& page, const Calibration& calibration) {
   add_warnings(page, joint.result.warnings);
 }
 
+std::string how_settled(const Calibration& calibration) {
+  if (calibration.I_v_is_joint) {
+    return calibration.settled ? "I_v is that of both kinds of test at once: refitting the oedometer there "
+                                 "moves nothing that "
+                                 "matters."
+                               : "I_v is that of both kinds of test at once, but refitting the oedometer "
+                                 "there moves its other "
+                                 "parameters: treat the answer with care.";
+  }
+  const std::string rounds =
+      fmt::format("{} round{}", calibration.rounds.size(), calibration.rounds.size() == 1 ? "" : "s");
+  return calibration.settled
+             ? fmt::format(
+                   "The chain stands still after {}: refitting the oedometer at the slump's answer "
+                   "moves nothing that matters.",
+                   rounds)
+             : fmt::format(
+                   "After {} the oedometer and the slump fit still move each other: treat the answer "
+                   "with care.",
+                   rounds);
+}
+
 }  // namespace
 
 Page calibration_report(const RunInfo& run, const datasets::Study& study, const Calibration& calibration) {
   Page page("Calibration", subtitle(run));
-  if (calibration.settled) {
-    page.verdict(Tone::good,
-                 fmt::format("The chain stands still after {} round{}: refitting the oedometer at the "
-                             "slump fit's answer moves nothing that matters.",
-                             calibration.rounds.size(), calibration.rounds.size() == 1 ? "" : "s"));
-  } else {
-    page.verdict(Tone::warning,
-                 fmt::format("After {} round{} the oedometer and the slump fit still move each other: "
-                             "treat the answer with care.",
-                             calibration.rounds.size(), calibration.rounds.size() == 1 ? "" : "s"));
-  }
+  page.verdict(calibration.settled ? Tone::good : Tone::warning, how_settled(calibration));
   const std::vector<ParameterEstimate> estimates = combined_estimates(calibration);
   add_oedometer_verdicts(page, calibration.oedometer);
   add_slump_fit_verdicts(page, calibration.slump);

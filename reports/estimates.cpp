@@ -71,6 +71,10 @@ const calibration::ParameterEstimate& estimate_of(const calibration::FitResult& 
 std::vector<calibration::ParameterEstimate> combined_estimates(const calibration::Calibration& calibration) {
   std::vector<calibration::ParameterEstimate> estimates;
   for (const model::ParameterInfo& parameter : model::kParameterTable) {
+    if (calibration.I_v_is_joint && parameter.id == model::ParameterId::I_v) {
+      estimates.push_back(estimate_of(calibration.joint->result, parameter.id));
+      continue;
+    }
     const bool by_slump = is_free(calibration.slump.result, parameter.id);
     estimates.push_back(
         estimate_of(by_slump ? calibration.slump.result : calibration.oedometer.result, parameter.id));

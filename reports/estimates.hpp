@@ -37,7 +37,7 @@ namespace isotach::reports {
                                                                 model::ParameterId id);
 
 /// All parameters in the order of ParameterId, each from the fit that moved it last: the slump's, where it
-/// did, else the oedometer's, at the slump's answer.
+/// did, else the oedometer's, at the slump's answer; I_v the joint fit's, where both kinds of test hold it.
 [[nodiscard]] std::vector<calibration::ParameterEstimate> combined_estimates(
     const calibration::Calibration& calibration);
 
