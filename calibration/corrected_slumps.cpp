@@ -83,7 +83,8 @@ tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study
   if (!corrections) return tl::unexpected(corrections.error());
   if (corrections->any()) {
     tests = make_experiments(study, place.effects, simulate, error, *corrections);
-    problem = make_problem(tests, study, place.parameters, wanted, error, threads);
+    const SlumpExperiments fitted = fitted_of(tests);
+    problem = problem.with_fitted({fitted.begin(), fitted.end()});
   }
   return CorrectedSlumps{std::move(tests), std::move(problem), std::move(start), std::move(*corrections)};
 }

@@ -46,17 +46,20 @@ double volume_excess(const datasets::SlumpTest& test) {
 }
 
 double offset_by_volume(const datasets::SlumpTest& test, const datasets::Outline& outline) {
-  return volume_excess(test, outline) * fill_volume(test) / surface(down_to_base(outline));
+  const mpm::Outline whole = down_to_base(outline);
+  return (whole.volume() - fill_volume(test)) / surface(whole);
 }
 
 Eigen::VectorXd direction_of_volume(
     const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests) {
   experiments::Values all;
   for (const auto& test : tests) {
-    experiments::Values offsets;
-    for (const std::size_t outline : test->outline_index()) {
-      offsets.push_back(-offset_by_volume(test->test(), test->test().outlines[outline]));
+    experiments::Values by_outline;
+    for (const datasets::Outline& outline : test->test().outlines) {
+      by_outline.push_back(-offset_by_volume(test->test(), outline));
     }
+    experiments::Values offsets;
+    for (const std::size_t outline : test->outline_index()) offsets.push_back(by_outline[outline]);
     const experiments::Values seen = test->decorrelated(offsets);
     all.insert(all.end(), seen.begin(), seen.end());
   }
