@@ -46,6 +46,7 @@ Body& Engine::add(Body body) {
   });
   q.for_each_array([&](PointArray& array) {
     if (std::find(absent.begin(), absent.end(), &array) != absent.end()) return;
+    array.reserve(padded);
     array.resize(q.count, 0.0);
     array.resize(padded, array.back());
   });

@@ -4,19 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/align/aligned_allocator.hpp>
 #include <cstddef>
 #include <vector>
 
 #include "model/state.hpp"
+#include "mpm/point_array.hpp"
 
 namespace isotach::mpm {
 
 /// Points that are moved together; a multiple of all packs.
 inline constexpr std::size_t kBlock = 64;
-
-/// One quantity of all points. Aligned, so that a pack of points never lies across two lines of the cache.
-using PointArray = std::vector<double, boost::alignment::aligned_allocator<double, 64>>;
 
 /// Material points. Mass and volume are per radian of an axisymmetric body, per metre of a plane one; r and z
 /// are then x and y. Arrays have padded() entries, so that packs of points may run past the last one; the

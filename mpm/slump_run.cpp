@@ -75,6 +75,11 @@ Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const
   const auto columns = static_cast<std::size_t>(std::lround(radius / width));
   const auto rows = static_cast<std::size_t>(std::lround(setup.mould.fill_height / height));
   q.count = columns * rows;
+  const std::size_t room = Particles::padded(q.count, kBlock);
+  for (PointArray* array : {&q.r, &q.z, &q.mass, &q.solid_volume, &q.reference_pressure, &q.void_ratio,
+                            &q.stress[0], &q.stress[1], &q.stress[2]}) {
+    array->reserve(room);
+  }
   std::vector<double> heights(rows);
   for (std::size_t row = 0; row < rows; ++row) heights[row] = (static_cast<double>(row) + 0.5) * height;
   const Layering layering = layering_of(setup, initial);
