@@ -20,19 +20,6 @@ using Effects = std::vector<const effects::Effect*>;
 
 constexpr std::size_t kNeighbours = 3;  // of the smoother, on either side
 
-std::vector<Disagreement> disagreement_of(const calibration::OedometerFit& fit) {
-  std::vector<Disagreement> all;
-  for (const calibration::TestCheck& test : fit.checks) {
-    for (const calibration::StageCheck& stage : test.stages) {
-      const double count = static_cast<double>(stage.count);
-      const double beyond = count * (stage.rms_over_noise * stage.rms_over_noise - 1.0);
-      all.push_back({test.name, test.held_out, stage, std::sqrt(std::max(0.0, beyond))});
-    }
-  }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
-  return all;
-}
-
 /// What the mean of a value's neighbours leaves of it: what a curve drawn through the readings would reach.
 double smoothed_gap(const calibration::OedometerFit& fit) {
   double squares = 0.0;
@@ -84,6 +71,7 @@ class Search {
       if (auto failure = weigh()) return tl::unexpected(*failure);
     }
     if (auto failure = decide()) return tl::unexpected(*failure);
+    if (auto failure = place()) return tl::unexpected(*failure);
     tell(1.0, "done");
     return std::move(found_);
   }
@@ -183,12 +171,16 @@ class Search {
     auto scores = score(study_, found_.base.candidate, effects_, noise.noise.weights, options_.threads);
     if (!scores) return scores.error();
     found_.scores = std::move(*scores);
+    auto wandering = let_wander(study_, found_.base.candidate, noise.noise.weights, options_.threads);
+    if (!wandering) return wandering.error();
+    found_.wandering = std::move(*wandering);
     const double gain = found_.trials.empty()
                             ? 0.0
                             : found_.base.candidate.chi_squared - found_.trials.front().candidate.chi_squared;
     found_.p_value = found_.scores.p_value(gain);
     found_.base.adequacy.meets_noise = meets_noise(found_.base.candidate.fit, noise.noise);
     found_.base.adequacy.p_value = found_.p_value;
+    found_.base.adequacy.wanders = found_.wandering.p_value;
     found_.base.adequate = !rejected();
     for (Trial& trial : found_.trials) {
       if (trial.candidate.bic > found_.trials.front().candidate.bic + kMargin) break;
@@ -214,12 +206,18 @@ class Search {
       trial.adequacy.most = left->effects[static_cast<std::size_t>(most - left->best.begin())];
       trial.adequacy.p_value = left->p_value(*most);
     }
-    trial.adequate = trial.adequacy.meets_noise && trial.adequacy.p_value >= kLeavesNothing;
+    const auto wandering =
+        let_wander(study_, trial.candidate, trial.candidate.fit.noise.weights, options_.threads);
+    if (!wandering) return wandering.error();
+    trial.adequacy.wanders = wandering->p_value;
+    trial.adequate = trial.adequacy.meets_noise && trial.adequacy.p_value >= kLeavesNothing &&
+                     trial.adequacy.wanders >= kLeavesNothing;
     return std::nullopt;
   }
 
   [[nodiscard]] bool rejected() const {
-    return !found_.base.adequacy.meets_noise || found_.p_value < kRejects;
+    return !found_.base.adequacy.meets_noise || found_.p_value < kRejects ||
+           found_.wandering.p_value < kRejects;
   }
   [[nodiscard]] bool any_adequate() const {
     return std::any_of(found_.trials.begin(), found_.trials.end(),
@@ -259,9 +257,11 @@ class Search {
       found_.conditions.push_back({std::move(text), holds});
       return holds;
     };
-    bool good = require(best.adequate, fmt::format("with {} the model meets every test and stage, and no "
-                                                   "further effect is called for ({})",
-                                                   name_of(best.candidate), p_words(best.adequacy.p_value)));
+    bool good = require(
+        best.adequate,
+        fmt::format("with {} the model meets every test and stage, no further effect is called for ({}), and "
+                    "letting a constant or a reading wander helps no more than noise would ({})",
+                    name_of(best.candidate), p_words(best.adequacy.p_value), p_words(best.adequacy.wanders)));
     good &= require(!best.candidate.at_bound, "its amplitude lies within its bounds and is not zero");
     const auto& beyond = best.candidate.beyond_bounds;
     good &= require(beyond.empty(),
@@ -277,9 +277,11 @@ class Search {
         lead >= kMargin, fmt::format("its BIC is lower than that of any other, the base included, by {:.1f} "
                                      "({} asked, with shapes charged and without)",
                                      lead, kMargin));
-    std::size_t fitted = 0;
-    for (const auto& test : study_.oedometer_tests) fitted += test.hold_out ? 0U : 1U;
-    if (fitted > 1) {
+    const auto fitted = std::count_if(study_.oedometer_tests.begin(), study_.oedometer_tests.end(),
+                                      [](const auto& test) { return !test.hold_out; });
+    if (fitted < 2) {
+      require(false, "there is a second test to try it on: one test alone names nothing");
+    } else {
       tell(0.9, "each test as the others predict it");
       if (auto interrupted = stopped()) return interrupted;
       const auto gain = predicts_better(best);
@@ -287,28 +289,33 @@ class Search {
       const bool better = gain ? require(*gain >= kPredictsNoWorse,
                                          fmt::format("{} (log predictive density {:+.1f})", words, *gain))
                                : require(false, words + ": " + gain.error().message);
-      if (!better && leads) {
-        found_.verdict = Verdict::unknown;
+      if (leads) {
+        found_.verdict = better ? Verdict::named : Verdict::unknown;
+        if (better) found_.chosen = 0;
         return std::nullopt;
       }
-    }
-    if (leads) {
-      found_.verdict = Verdict::named;
-      found_.chosen = 0;
-      return std::nullopt;
     }
     for (std::size_t k = 0; k < found_.trials.size(); ++k) {
       const Trial& trial = found_.trials[k];
       if (lead_over(trial.candidate) < kMargin) found_.equivalent.push_back(k);
     }
-    if (found_.equivalent.size() < 2) {  // too little better than the base, and nothing beside it
+    if (found_.equivalent.size() < 2 && !leads) {  // too little better than the base, and nothing beside it
       found_.equivalent.clear();
       found_.verdict = Verdict::unknown;
       return std::nullopt;
     }
     found_.verdict = Verdict::ambiguous;
-    found_.next = tell_apart(study_, best.candidate, found_.trials[found_.equivalent[1]].candidate);
+    const Candidate& other = found_.trials.size() > 1 ? found_.trials[1].candidate : found_.base.candidate;
+    found_.next = tell_apart(study_, best.candidate, other);
     return std::nullopt;
+  }
+
+  /// Where the base fails, by the best trial where it is an explanation.
+  std::optional<FitFailure> place() {
+    if (found_.verdict != Verdict::named && found_.verdict != Verdict::ambiguous) return std::nullopt;
+    const Candidate& best = found_.trials.front().candidate;
+    return rank_by_explanation(study_, found_.base.candidate, best, best.fit.noise.weights, options_.threads,
+                               found_.disagreement);
   }
 
   const datasets::Study& study_;

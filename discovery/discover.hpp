@@ -10,32 +10,27 @@
 #include <vector>
 
 #include "discovery/candidate.hpp"
+#include "discovery/disagreement.hpp"
 #include "discovery/next_experiment.hpp"
 #include "discovery/score_test.hpp"
+#include "discovery/wandering.hpp"
 
 namespace isotach::discovery {
 
 enum class Verdict {
   adequate,   ///< the base meets the data to within their noise
   named,      ///< effects are missing, and these are they
-  ambiguous,  ///< something is missing, which more than one effect explains
+  ambiguous,  ///< something is missing, which more than one effect explains, or one that no second test tries
   unknown     ///< something is missing that no effect of the catalogue explains
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
-
-/// Where the base disagrees with the data: one stage of a test.
-struct Disagreement {
-  std::string test;
-  bool held_out;
-  calibration::StageCheck stage;
-  double score;  ///< root of the sum of squares beyond that of noise, in units of noise
-};
 
 /// Whether a model meets the data.
 struct Adequacy {
   bool meets_noise = false;               ///< every test and stage within its stated noise
   double p_value = 0.0;                   ///< that noise makes any effect look so useful on top of it
   const effects::Effect* most = nullptr;  ///< the effect that looks so; null where there is none
+  double wanders = 0.0;                   ///< p that noise lets a slot wander so far on top of it
 };
 
 /// A set of effects that was tried.
@@ -56,13 +51,15 @@ struct Discovery {
   Verdict verdict = Verdict::adequate;
   Trial base;
   ScoreTest scores;           ///< of all effects, on the base, by the best candidate's noise
-  double p_value = 0.0;       ///< of the base's rejection
+  double p_value = 0.0;       ///< that noise makes any effect look so useful on the base
+  Wandering wandering;        ///< slots let wander on the base, by the best candidate's noise
   std::vector<Trial> trials;  ///< by BIC, the best first
   std::vector<std::pair<const effects::Effect*, std::string>> not_tried;  ///< and why
   std::optional<std::size_t> chosen;                                      ///< of the trials, where named
-  std::vector<std::size_t> equivalent;     ///< trials that the data cannot tell apart, where ambiguous
+  /// Trials that the data cannot tell apart, where ambiguous; the best alone where but one test is fitted.
+  std::vector<std::size_t> equivalent;
   std::vector<Condition> conditions;       ///< of a name, on the best trial
-  std::vector<Disagreement> disagreement;  ///< ranked
+  std::vector<Disagreement> disagreement;  ///< ranked, by the best trial where that is an explanation
   /// Gap of the best trial that is not the first (fitted tests); NaN where there is none.
   double best_wrong = std::numeric_limits<double>::quiet_NaN();
   double smoother = 0.0;               ///< gap that a smoother of the base's residuals leaves

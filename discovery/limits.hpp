@@ -45,6 +45,12 @@ inline constexpr std::size_t kPaired = 4;
 /// The same of slump tests, where a fit is a dozen sets of simulations.
 inline constexpr std::size_t kSlumpRefitted = 3;
 inline constexpr std::size_t kSlumpPaired = 3;
+/// Knots of a function along which a slot wanders: each costs power against a drift or a bend, and what needs
+/// more of them is seen better in the residuals.
+inline constexpr std::size_t kWanderKnots = 4;
+/// A direction of such functions is looked along where a change of the slot's plausible size shows by so many
+/// sigma.
+inline constexpr double kWanderShows = 1.0;
 /// Share of its size to which a name's shape parameters are tried, and its inverse, in the score.
 inline constexpr double kShapeStep = 3.0;
 

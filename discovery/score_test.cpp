@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "discovery/limits.hpp"
+#include "discovery/noise_replicates.hpp"
 
 namespace isotach::discovery {
 
@@ -59,31 +57,18 @@ std::vector<double> largest_under_noise(const std::vector<Signature>& signatures
   if (n == 0) return {};
   Eigen::MatrixXd all(signatures.front().unit.size(), n);
   for (Eigen::Index k = 0; k < n; ++k) all.col(k) = signatures[static_cast<std::size_t>(k)].unit;
-  // signatures are nearly dependent: a root of their correlation by eigenvalues
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(all.transpose() * all);
-  const Eigen::MatrixXd root =
-      solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  std::mt19937_64 random(kSeed);
-  std::normal_distribution<double> normal(0.0, 1.0);
   std::vector<double> largest;
   Eigen::VectorXd noise(n);
-  for (int b = 0; b < kReplicates; ++b) {
-    for (double& value : noise) value = normal(random);
-    const Eigen::VectorXd z = root * noise;
+  for_noise_along(all, kSeed, [&](const Eigen::VectorXd& z) {
     double most = 0.0;
     for (Eigen::Index k = 0; k < n; ++k) {
       const double size = counted(signatures[static_cast<std::size_t>(k)], z[k]);
       most = std::max(most, size * size);
     }
     largest.push_back(most);
-  }
+  });
   std::sort(largest.begin(), largest.end());
   return largest;
-}
-
-Projection::Projection(const Eigen::MatrixXd& jacobian) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), qr.rank());
 }
 
 Signature signature_of(const effects::Effect* effect, const Eigen::VectorXd& change, const Projection& base,
@@ -106,7 +91,7 @@ double gain_of(const Signature& signature) {
 
 double ScoreTest::p_value(double largest) const {
   const auto above = null_largest.end() - std::lower_bound(null_largest.begin(), null_largest.end(), largest);
-  return (static_cast<double>(above) + 1.0) / (static_cast<double>(null_largest.size()) + 1.0);
+  return replicated_p(above, null_largest.size());
 }
 
 std::string p_words(double p) {
@@ -119,12 +104,8 @@ tl::expected<ScoreTest, calibration::FitFailure> score(
     const datasets::Study& study, const Candidate& model, const std::vector<const effects::Effect*>& effects,
     const std::vector<calibration::ExperimentWeights>& weights, int threads) {
   const calibration::OedometerFit& fit = model.fit;
-  calibration::Problem problem = calibration::problem_of(study, fit, model.free, threads);
-  problem.set_weights(weights);
-  const auto at = problem.linearise(fit.result.main.coordinates);
-  if (!at) return tl::unexpected(calibration::FitFailure{at.error().message});
-  const auto values = static_cast<Eigen::Index>(problem.value_count());
-  const Projection base(at->jacobian);
+  const auto linear = LinearModel::of(study, model, weights, fit.result.main.coordinates, threads);
+  if (!linear) return tl::unexpected(linear.error());
 
   ScoreTest test;
   for (const effects::Effect* effect : effects) {
@@ -140,9 +121,8 @@ tl::expected<ScoreTest, calibration::FitFailure> score(
       for (std::size_t i = 0; i < all->size(); ++i) {
         if (!fit.experiments[i]->held_out()) fitted.push_back((*all)[i]);
       }
-      Eigen::VectorXd change = Eigen::VectorXd::Zero(at->jacobian.rows());
-      change.head(values) = problem.weighted(fitted).jacobian.col(0);
-      Signature found = signature_of(effect, change, base, at->residuals);
+      Signature found =
+          signature_of(effect, linear->weighted(fitted).col(0), linear->parameters(), linear->residuals());
       best = std::max(best, gain_of(found));
       test.signatures.push_back(std::move(found));
     }

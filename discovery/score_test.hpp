@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/candidate.hpp"
+#include "discovery/linear_model.hpp"
 
 namespace isotach::discovery {
 
@@ -28,19 +28,6 @@ struct ScoreTest {
   /// 1/(kReplicates + 1), which stands for "less than that".
   [[nodiscard]] double p_value(double largest) const;
   std::vector<double> null_largest;  ///< sorted, of the bootstrap
-};
-
-/// Frees changes of residuals of what a model's parameters can do.
-class Projection {
- public:
-  /// `jacobian` of the residuals by the parameters.
-  explicit Projection(const Eigen::MatrixXd& jacobian);
-  [[nodiscard]] Eigen::VectorXd freed(const Eigen::VectorXd& change) const {
-    return change - basis_ * (basis_.transpose() * change);
-  }
-
- private:
-  Eigen::MatrixXd basis_;
 };
 
 /// Of a change that an effect makes of `residuals`.

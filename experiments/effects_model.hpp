@@ -56,10 +56,10 @@ struct StrainOf {
   }
 };
 
-/// All that stays the same over a test.
+/// All that stays the same over a test, but for what is let wander.
 template <class S>
 struct EffectsModel {
-  const model::Law<S>& law;
+  model::Law<S> law;
   model::LawTerms<S> terms;
   S reference_temperature;  ///< deg C; where there is a term of temperature
   Instrument<S> instrument;

@@ -14,6 +14,7 @@
 #include "effects/temperature.hpp"
 #include "experiments/effects_substeps.hpp"
 #include "experiments/oedometer_path.hpp"
+#include "experiments/wander.hpp"
 
 namespace isotach::experiments::detail {
 
@@ -118,10 +119,12 @@ template <class S, model::Fabric K>
 class EffectsPath {
  public:
   EffectsPath(const model::Law<S>& law, const effects::Values<S>& values, const datasets::OedometerTest& test,
-              const OedometerProtocol& protocol)
+              const OedometerProtocol& protocol, const Wander<S>* wander = nullptr)
       : test_(test),
         protocol_(protocol),
         values_(values),
+        wander_(wander),
+        parameters_(law.parameters()),
         model_{law,
                law_terms(values),
                S(0.0),
@@ -195,7 +198,21 @@ class EffectsPath {
  private:
   [[nodiscard]] S load() const { return model_.load(y_.soil, step_.direction); }
   [[nodiscard]] S measured_strain() const {
-    return model_.measured_strain(y_.soil.void_ratio, load(), step_.largest_load);
+    return model_.measured_strain(y_.soil.void_ratio, load(), step_.largest_load) + strain_offset_;
+  }
+  /// Whether the strain read is more than the specimen's.
+  [[nodiscard]] bool strain_is_led() const {
+    return model_.instrument.gives() || (wander_ != nullptr && wander_->slot == Slot::strain_reading);
+  }
+  void let_wander(const S& change) {
+    using std::exp;
+    if (wander_->slot == Slot::stress_reading) {
+      stress_factor_ = exp(change);
+    } else if (wander_->slot == Slot::strain_reading) {
+      strain_offset_ = change - wander_->change[0];
+    } else {
+      model_.law = model::Law<S>(changed(parameters_, wander_->slot, change));
+    }
   }
 
   void keep_largest(const EffectsState<S, K>& y) {
@@ -218,6 +235,9 @@ class EffectsPath {
     step_.direction = drive.direction;
     step_.held = drive.held;
     step_.stress_controlled = drive.stress_controlled;
+    const bool strain_begins = !drive.stress_controlled && (first || controlled_before);
+    if (strain_begins && strain_is_led()) log_height_ = log(1.0 - measured_strain());
+    if (wander_ != nullptr) let_wander(wander_->change[i + 1]);
     if (!protocol_.temperatures.empty()) {
       step_.temperature = protocol_.temperatures[i];
       step_.temperature_rate = (protocol_.temperatures[i + 1] - protocol_.temperatures[i]) / drive.duration;
@@ -225,15 +245,15 @@ class EffectsPath {
     if (drive.stress_controlled) {
       S target(drive.amount);
       if (sensor_controls()) {
-        target -= model_.instrument.drift(time + drive.duration - protocol_.start.time);
+        target =
+            target / stress_factor_ - model_.instrument.drift(time + drive.duration - protocol_.start.time);
       }
       step_.stress = load() + carried_by_water_;
       step_.rate = (target - step_.stress) / drive.duration;
-    } else if (!model_.instrument.gives()) {
+    } else if (!strain_is_led()) {
       step_.rate = S(drive.amount / drive.duration);
     } else {
       // towards where the instrument is to be, so that no error of a step stays
-      if (first || controlled_before) log_height_ = log(1.0 - measured_strain());
       log_height_ -= drive.amount;
       step_.rate = (log(1.0 - measured_strain()) - log_height_) / drive.duration;
     }
@@ -255,7 +275,8 @@ class EffectsPath {
         carried_by_water_ = c * step_.compression;
       }
     }
-    const S stress = now + carried_by_water_ + model_.instrument.drift(time - protocol_.start.time);
+    const S stress =
+        (now + carried_by_water_ + model_.instrument.drift(time - protocol_.start.time)) * stress_factor_;
     if (!(model::value_of(stress) > 0.0)) return std::nullopt;
     return EffectsReading<S>{stress, measured_strain()};
   }
@@ -263,11 +284,15 @@ class EffectsPath {
   const datasets::OedometerTest& test_;
   const OedometerProtocol& protocol_;
   const effects::Values<S>& values_;
+  const Wander<S>* wander_;          // null where nothing wanders
+  model::Parameters<S> parameters_;  // from which the law's wander
   EffectsModel<S> model_;
   EffectsStep<S> step_;
   EffectsState<S, K> y_;
   S carried_by_water_ = S(0.0);  // Pa, of the stress measured
   S log_height_ = S(0.0);        // measured, over the first height
+  S stress_factor_ = S(1.0);     // of the stress read, where that wanders
+  S strain_offset_ = S(0.0);     // of the strain read, likewise
   double substep_ = 0.0;
 };
 

@@ -37,10 +37,11 @@ tl::expected<std::vector<S>, PredictionFailure> predict_with_effects(const model
                                                                      const effects::Values<S>& effects,
                                                                      const datasets::OedometerTest& test,
                                                                      const OedometerProtocol& protocol,
-                                                                     std::span<const S> local) {
+                                                                     std::span<const S> local,
+                                                                     const Wander<S>* wander) {
   using Result = tl::expected<std::vector<S>, PredictionFailure>;
   return in_form<Result>(parameters, effects, test, [&]<model::Fabric K>(const model::Law<S>& law) -> Result {
-    detail::EffectsPath<S, K> path(law, effects, test, protocol);
+    detail::EffectsPath<S, K> path(law, effects, test, protocol, wander);
     if (auto failure = path.begin(local)) return tl::unexpected(std::move(*failure));
     return detail::compared_values<S>(protocol, path.at_start(), [&](auto&& visit) {
       return path.follow(by_substeps(path),
@@ -78,12 +79,14 @@ tl::expected<std::vector<PathPoint>, PredictionFailure> path_with_effects(
 
 template tl::expected<std::vector<double>, PredictionFailure> predict_with_effects(
     const model::Parameters<double>&, const effects::Values<double>&, const datasets::OedometerTest&,
-    const OedometerProtocol&, std::span<const double>);
+    const OedometerProtocol&, std::span<const double>, const Wander<double>*);
 template tl::expected<std::vector<ceres::Jet<double, 4>>, PredictionFailure> predict_with_effects(
     const model::Parameters<ceres::Jet<double, 4>>&, const effects::Values<ceres::Jet<double, 4>>&,
-    const datasets::OedometerTest&, const OedometerProtocol&, std::span<const ceres::Jet<double, 4>>);
+    const datasets::OedometerTest&, const OedometerProtocol&, std::span<const ceres::Jet<double, 4>>,
+    const Wander<ceres::Jet<double, 4>>*);
 template tl::expected<std::vector<ceres::Jet<double, 8>>, PredictionFailure> predict_with_effects(
     const model::Parameters<ceres::Jet<double, 8>>&, const effects::Values<ceres::Jet<double, 8>>&,
-    const datasets::OedometerTest&, const OedometerProtocol&, std::span<const ceres::Jet<double, 8>>);
+    const datasets::OedometerTest&, const OedometerProtocol&, std::span<const ceres::Jet<double, 8>>,
+    const Wander<ceres::Jet<double, 8>>*);
 
 }  // namespace isotach::experiments

@@ -60,6 +60,33 @@ tl::expected<std::vector<S>, PredictionFailure> predict_with(const Inputs<S>& in
   });
 }
 
+template <class Jet>
+Linearisation linearisation_of(const std::vector<Jet>& jets, Eigen::Index columns) {
+  Linearisation result;
+  result.jacobian.resize(static_cast<Eigen::Index>(jets.size()), columns);
+  result.values.reserve(jets.size());
+  for (std::size_t i = 0; i < jets.size(); ++i) {
+    result.values.push_back(jets[i].a);
+    result.jacobian.row(static_cast<Eigen::Index>(i)) = jets[i].v.head(columns).transpose();
+  }
+  return result;
+}
+
+/// f(first, count) of blocks of at most eight columns, side by side.
+template <class F>
+tl::expected<Linearisation, PredictionFailure> in_blocks_of_eight(Eigen::Index columns, F&& f) {
+  Linearisation result;
+  for (Eigen::Index first = 0; first < columns; first += 8) {
+    const Eigen::Index count = std::min<Eigen::Index>(8, columns - first);
+    tl::expected<Linearisation, PredictionFailure> part = f(first, count);
+    if (!part) return part;
+    if (first == 0) result.jacobian.resize(part->jacobian.rows(), columns);
+    result.jacobian.middleCols(first, count) = part->jacobian;
+    result.values = std::move(part->values);
+  }
+  return result;
+}
+
 }  // namespace
 
 /// Prediction with derivatives along up to `Width` directions.
@@ -87,14 +114,7 @@ tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise_wi
   if (!inputs) return tl::unexpected(inputs.error());
   const auto jets = predict_with<Jet>(*inputs, test_, protocol_);
   if (!jets) return tl::unexpected(jets.error());
-  Linearisation result;
-  result.jacobian.resize(static_cast<Eigen::Index>(jets->size()), columns);
-  result.values.reserve(jets->size());
-  for (std::size_t i = 0; i < jets->size(); ++i) {
-    result.values.push_back((*jets)[i].a);
-    result.jacobian.row(static_cast<Eigen::Index>(i)) = (*jets)[i].v.head(columns).transpose();
-  }
-  return result;
+  return linearisation_of(*jets, columns);
 }
 
 namespace {
@@ -229,17 +249,30 @@ tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise(
     const Eigen::MatrixXd& directions) const {
   if (directions.cols() <= 4) return linearise_with<4>(parameters, local, directions);
   if (directions.cols() <= 8) return linearise_with<8>(parameters, local, directions);
-  // in blocks of eight
-  Linearisation result;
-  for (Eigen::Index first = 0; first < directions.cols(); first += 8) {
-    const Eigen::Index count = std::min<Eigen::Index>(8, directions.cols() - first);
-    auto part = linearise_with<8>(parameters, local, directions.middleCols(first, count));
-    if (!part) return tl::unexpected(part.error());
-    if (first == 0) result.jacobian.resize(part->jacobian.rows(), directions.cols());
-    result.jacobian.middleCols(first, count) = part->jacobian;
-    result.values = std::move(part->values);
-  }
-  return result;
+  return in_blocks_of_eight(directions.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    return linearise_with<8>(parameters, local, directions.middleCols(first, count));
+  });
+}
+
+tl::expected<Linearisation, PredictionFailure> OedometerExperiment::linearise_wander(
+    const model::Parameters<double>& parameters, std::span<const double> local, Slot slot,
+    const Eigen::MatrixXd& functions) const {
+  using Jet = ceres::Jet<double, 8>;
+  const std::vector<Jet> constant(local.begin(), local.end());
+  const auto inputs = inputs_of<Jet>(parameters.cast<Jet>(), constant, effects_, free_);
+  if (!inputs) return tl::unexpected(inputs.error());
+  using Result = tl::expected<Linearisation, PredictionFailure>;
+  return in_blocks_of_eight(functions.cols(), [&](Eigen::Index first, Eigen::Index count) -> Result {
+    std::vector<Jet> change(static_cast<std::size_t>(functions.rows()), Jet(0.0));
+    for (std::size_t i = 0; i < change.size(); ++i) {
+      change[i].v.head(count) = functions.row(static_cast<Eigen::Index>(i)).segment(first, count);
+    }
+    const Wander<Jet> wander{slot, change};
+    const auto jets = predict_with_effects<Jet>(inputs->parameters, inputs->effects, test_, protocol_,
+                                                inputs->start, &wander);
+    if (!jets) return tl::unexpected(jets.error());
+    return linearisation_of(*jets, count);
+  });
 }
 
 tl::expected<std::vector<PathPoint>, PredictionFailure> OedometerExperiment::path(

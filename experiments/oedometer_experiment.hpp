@@ -6,6 +6,7 @@
 #include "experiments/experiment.hpp"
 #include "experiments/oedometer_protocol.hpp"
 #include "experiments/path_point.hpp"
+#include "experiments/wander.hpp"
 
 namespace isotach::experiments {
 
@@ -31,6 +32,12 @@ class OedometerExperiment final : public Experiment {
   [[nodiscard]] tl::expected<Linearisation, PredictionFailure> linearise(
       const model::Parameters<double>& parameters, std::span<const double> local,
       const Eigen::MatrixXd& directions) const override;
+
+  /// Predictions, and their derivatives by the coefficients (zero) of functions along which a slot wanders:
+  /// `functions` has a column for each, a row for the start and for every step's end.
+  [[nodiscard]] tl::expected<Linearisation, PredictionFailure> linearise_wander(
+      const model::Parameters<double>& parameters, std::span<const double> local, Slot slot,
+      const Eigen::MatrixXd& functions) const;
 
   [[nodiscard]] const datasets::OedometerTest& test() const { return test_; }
   /// The effects that are on, as given; and with the free parameters of `local`.

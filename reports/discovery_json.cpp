@@ -5,6 +5,7 @@
 #include "reports/json_number.hpp"
 #include "reports/result_head.hpp"
 #include "reports/slump_discovery_report.hpp"
+#include "reports/wandering_section.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -37,14 +38,17 @@ ordered_json discovery_json(const discovery::Discovery& found) {
   json["p_value"] = json_number(found.p_value);
   json["disagreement"] = ordered_json::array();
   for (const discovery::Disagreement& place : found.disagreement) {
-    json["disagreement"].push_back({{"experiment", place.test},
-                                    {"held_out", place.held_out},
-                                    {"stage", place.stage.stage},
-                                    {"from", json_number(place.stage.from_time)},
-                                    {"to", json_number(place.stage.to_time)},
-                                    {"rms_over_noise", json_number(place.stage.rms_over_noise)},
-                                    {"score", json_number(place.score)}});
+    json["disagreement"].push_back(
+        {{"experiment", place.test},
+         {"held_out", place.held_out},
+         {"stage", place.stage.stage},
+         {"from", json_number(place.stage.from_time)},
+         {"to", json_number(place.stage.to_time)},
+         {"rms_over_noise", json_number(place.stage.rms_over_noise)},
+         {"score", json_number(place.score)},
+         {"explained", place.explained ? json_number(*place.explained) : ordered_json(nullptr)}});
   }
+  json["wandering"] = wandering_json(found.wandering);
   json["conditions"] = conditions_json(found.conditions);
   json["trials"] = ordered_json::array();
   for (const discovery::Trial& trial : found.trials) json["trials"].push_back(trial_json(trial));

@@ -11,6 +11,7 @@
 #include "reports/fit_sections.hpp"
 #include "reports/number.hpp"
 #include "reports/slump_discovery_report.hpp"
+#include "reports/wandering_section.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -38,10 +39,12 @@ void add_verdict(Page& page, const Discovery& found) {
   using discovery::Verdict;
   switch (found.verdict) {
     case Verdict::adequate:
-      page.verdict(Tone::good,
-                   fmt::format("The model suffices: every test and stage is met to within its noise, and no "
-                               "effect of the catalogue improves the fit more than noise would ({}).",
-                               discovery::p_words(found.p_value)));
+      page.verdict(
+          Tone::good,
+          fmt::format("The model suffices: every test and stage is met to within its noise, and no "
+                      "effect of the catalogue improves the fit more than noise would ({}), nor does "
+                      "a constant or a reading that wanders ({}).",
+                      discovery::p_words(found.p_value), discovery::p_words(found.wandering.p_value)));
       return;
     case Verdict::named: {
       const Trial& best = found.trials[*found.chosen];
@@ -56,8 +59,14 @@ void add_verdict(Page& page, const Discovery& found) {
         if (!names.empty()) names += "; ";
         names += name_of(found.trials[k].candidate);
       }
-      page.verdict(Tone::warning,
-                   fmt::format("The model lacks something that these tests cannot tell apart: {}.", names));
+      page.verdict(
+          Tone::warning,
+          found.equivalent.size() > 1
+              ? fmt::format("The model lacks something that these tests cannot tell apart: {}.", names)
+              : fmt::format("The model lacks something: the data are consistent with {}, and with "
+                            "nothing else of the catalogue as well, but there is no second test to "
+                            "try that on.",
+                            names));
       if (found.next) page.verdict(Tone::plain, next_words(*found.next));
       return;
     }
@@ -66,27 +75,32 @@ void add_verdict(Page& page, const Discovery& found) {
           Tone::bad,
           "The model does not suffice, and no effect of the catalogue, nor two of them, can be named "
           "for it: see where it fails.");
+      page.verdict(Tone::plain, wander_words(found.wandering));
       if (!found.trials.empty()) page.verdict(Tone::plain, gap_words(found, found.trials.front()));
       return;
   }
 }
 
 Table disagreement_table(const Discovery& found, std::size_t most) {
-  Table table{
-      .caption = "Where the base disagrees, the worst first.",
-      .header = {"test", "stage", "from (s)", "to (s)", "from (kPa)", "to (kPa)", "rms/noise", "mean/noise",
-                 "score"},
-      .alignment = {Alignment::left, Alignment::left, Alignment::right, Alignment::right, Alignment::right,
-                    Alignment::right, Alignment::right, Alignment::right, Alignment::right}};
+  Table table{.caption = "Where the base disagrees, the worst first.",
+              .header = {"test", "stage", "from (s)", "to (s)", "from (kPa)", "to (kPa)", "rms/noise",
+                         "mean/noise", "score", "explained"},
+              .alignment = {Alignment::left, Alignment::left, Alignment::right, Alignment::right,
+                            Alignment::right, Alignment::right, Alignment::right, Alignment::right,
+                            Alignment::right, Alignment::right}};
   table.notes.push_back(
-      "Score: root of the sum of squared residuals beyond what noise would give, in units of noise.");
+      "Score: root of the sum of squared residuals beyond what noise would give, in units of noise. "
+      "Explained: root of the sum of squares of what the best explanation changes there and the base's "
+      "parameters cannot; where there is an explanation it ranks the stages, for it is nearly free of "
+      "noise.");
   for (std::size_t k = 0; k < std::min(most, found.disagreement.size()); ++k) {
     const discovery::Disagreement& place = found.disagreement[k];
     table.rows.push_back({place.test + (place.held_out ? ", held out" : ""), place.stage.stage,
                           number(place.stage.from_time), number(place.stage.to_time),
                           number(place.stage.from_stress / kKilopascal),
                           number(place.stage.to_stress / kKilopascal), number(place.stage.rms_over_noise),
-                          number(place.stage.mean_over_noise), number(place.score)});
+                          number(place.stage.mean_over_noise), number(place.score),
+                          place.explained ? number(*place.explained) : kMissing});
   }
   return table;
 }
@@ -219,6 +233,7 @@ void add_evidence(Page& page, const Discovery& found) {
   page.section("Scores");
   page.table(score_table(found));
   page.table(likeness_table(found));
+  add_wandering(page, found.wandering);
   page.section("Where");
   page.table(disagreement_table(found, found.disagreement.size()));
   for (std::size_t i = 0; i < found.base.candidate.fit.experiments.size(); ++i) {
@@ -227,9 +242,9 @@ void add_evidence(Page& page, const Discovery& found) {
   page.section("How it was decided");
   page.paragraph(fmt::format(
       "The base is rejected where a test or stage is missed by more than its stated noise, or where noise "
-      "alone would let some effect improve the fit as much in less than {} of cases (parametric bootstrap of "
-      "the "
-      "largest, {} replicates). A name needs: a model that then meets every test and stage and calls for "
+      "alone would let some effect improve the fit as much, or some slot wander as far, in less than {} of "
+      "cases (parametric bootstrap of the largest, {} replicates). A name needs: a model that then meets "
+      "every test and stage and calls for "
       "nothing more "
       "(p >= {}), a BIC lower than any other's by {}, an amplitude within its bounds, and predictions of "
       "tests left out of the fit that are no worse than the base's (log predictive density, which weighs how "

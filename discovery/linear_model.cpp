@@ -1,0 +1,55 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/linear_model.hpp"
+
+#include "calibration/effect_sensitivity.hpp"
+
+namespace isotach::discovery {
+
+using calibration::FitFailure;
+using experiments::Linearisation;
+
+Projection::Projection(const Eigen::MatrixXd& jacobian) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), qr.rank());
+}
+
+LinearModel::LinearModel(calibration::Problem problem, std::vector<Linearisation> predictions,
+                         calibration::Linearised at)
+    : problem_(std::move(problem)),
+      predictions_(std::move(predictions)),
+      at_(std::move(at)),
+      solver_(at_.jacobian),
+      parameters_(at_.jacobian) {}
+
+tl::expected<LinearModel, FitFailure> LinearModel::of(
+    const datasets::Study& study, const Candidate& model,
+    const std::vector<calibration::ExperimentWeights>& weights, const std::vector<double>& x, int threads) {
+  calibration::Problem problem = calibration::problem_of(study, model.fit, model.free, threads);
+  problem.set_weights(weights);
+  auto predictions = problem.predictions(x);
+  if (!predictions) return tl::unexpected(FitFailure{predictions.error().message});
+  auto at = problem.linearise(x);
+  if (!at) return tl::unexpected(FitFailure{at.error().message});
+  return LinearModel(std::move(problem), std::move(*predictions), std::move(*at));
+}
+
+Eigen::MatrixXd LinearModel::weighted(const std::vector<Linearisation>& changes) const {
+  const Eigen::MatrixXd values = problem_.weighted(changes).jacobian;
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(at_.residuals.size(), values.cols());
+  all.topRows(values.rows()) = values;
+  return all;
+}
+
+std::vector<experiments::Values> LinearModel::left_of(const std::vector<Linearisation>& changes,
+                                                      const Eigen::VectorXd& direction) const {
+  const Eigen::VectorXd taken_up = solver_.solve(weighted(changes) * direction);
+  std::vector<experiments::Values> left;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const Eigen::VectorXd change = changes[i].jacobian * direction - predictions_[i].jacobian * taken_up;
+    left.emplace_back(change.begin(), change.end());
+    for (std::size_t k = 0; k < left.back().size(); ++k) left.back()[k] /= fitted()[i]->noise()[k];
+  }
+  return left;
+}
+
+}  // namespace isotach::discovery
