@@ -1,8 +1,12 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "calibration/parallel.hpp"
 
@@ -25,6 +29,30 @@ tl::expected<std::vector<Result>, experiments::PredictionFailure> for_all(const 
     values.push_back(std::move(*result));
   }
   return values;
+}
+
+/// A derivative by a coordinate beyond it is no derivative: substeps that follow the values through a start
+/// far beyond yield may still blow up what goes along with them.
+constexpr double kLargestDerivative = 1e12;
+
+/// Where a prediction is not a number or a derivative of it is of no use, if one is not.
+std::optional<experiments::PredictionFailure> useless(const experiments::Linearisation& at,
+                                                      const experiments::Experiment& experiment,
+                                                      const std::vector<Coordinate>& coordinates) {
+  const auto failure = [&](std::size_t value, const std::string& what, double number) {
+    return experiments::PredictionFailure{fmt::format("{}: {} of value {} of {} is {:.3g}", experiment.name(),
+                                                      what, value + 1, at.values.size(), number)};
+  };
+  for (std::size_t i = 0; i < at.values.size(); ++i) {
+    if (!std::isfinite(at.values[i])) return failure(i, "the prediction", at.values[i]);
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      const double slope = at.jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      if (!(std::abs(slope) <= kLargestDerivative)) {
+        return failure(i, "the derivative by " + coordinates[k].name, slope);
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -102,8 +130,13 @@ tl::expected<std::vector<experiments::Linearisation>, experiments::PredictionFai
   const auto tangent = parametrisation_.tangent(x);
   if (!tangent) return tl::unexpected(experiments::PredictionFailure{tangent.error()});
   return for_all<experiments::Linearisation>(fitted_, threads_, [&](std::size_t i) {
-    return fitted_[i]->linearise(tangent->parameters, parametrisation_.local_at(x, index_[i]),
-                                 parametrisation_.directions(*tangent, x, index_[i]));
+    auto at = fitted_[i]->linearise(tangent->parameters, parametrisation_.local_at(x, index_[i]),
+                                    parametrisation_.directions(*tangent, x, index_[i]));
+    if (at) {
+      if (auto failure = useless(*at, *fitted_[i], parametrisation_.coordinates()))
+        at = tl::unexpected(*std::move(failure));
+    }
+    return at;
   });
 }
 
@@ -138,10 +171,6 @@ tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(
   result.residuals.conservativeResize(rows);
   result.jacobian.conservativeResize(rows, static_cast<Eigen::Index>(x.size()));
   append_priors(x, result.residuals, &result.jacobian);
-  if (!result.jacobian.allFinite() || !result.residuals.allFinite()) {
-    return tl::unexpected(
-        experiments::PredictionFailure{"the derivatives of a prediction by the parameters are not finite"});
-  }
   return result;
 }
 

@@ -14,19 +14,6 @@ namespace {
 using calibration::FitFailure;
 using experiments::Linearisation;
 
-/// The explanation's values of the base's coordinates.
-std::vector<double> coordinates_for(const Candidate& base, const Candidate& explanation) {
-  std::vector<double> x = base.fit.result.main.coordinates;
-  const auto& from = explanation.fit.result.coordinates;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const auto& name = base.fit.result.coordinates[k].name;
-    const auto same = std::find_if(from.begin(), from.end(), [&](const auto& c) { return c.name == name; });
-    if (same == from.end()) continue;
-    x[k] = explanation.fit.result.main.coordinates[static_cast<std::size_t>(same - from.begin())];
-  }
-  return x;
-}
-
 double root_of_squares_in(const Disagreement& place, const experiments::OedometerExperiment& test,
                           const experiments::Values& values) {
   double sum = 0.0;
@@ -56,7 +43,9 @@ std::optional<FitFailure> rank_by_explanation(const datasets::Study& study, cons
                                               const Candidate& explanation,
                                               const std::vector<calibration::ExperimentWeights>& weights,
                                               int threads, std::vector<Disagreement>& places) {
-  const auto linear = LinearModel::of(study, base, weights, coordinates_for(base, explanation), threads);
+  const std::vector<double> x = matched(base.fit.result.coordinates, explanation.fit.result.coordinates,
+                                        explanation.fit.result.main.coordinates);
+  const auto linear = LinearModel::of(study, base, weights, x, threads);
   if (!linear) return linear.error();
   const auto with = calibration::problem_of(study, explanation.fit, explanation.free, threads)
                         .predictions(explanation.fit.result.main.coordinates);

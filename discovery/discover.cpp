@@ -306,7 +306,8 @@ class Search {
     }
     found_.verdict = Verdict::ambiguous;
     const Candidate& other = found_.trials.size() > 1 ? found_.trials[1].candidate : found_.base.candidate;
-    found_.next = tell_apart(study_, best.candidate, other);
+    found_.next =
+        tell_apart(study_, best.candidate, other, best.candidate.fit.noise.weights, options_.threads);
     return std::nullopt;
   }
 

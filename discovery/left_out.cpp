@@ -2,10 +2,10 @@
 #include "discovery/left_out.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 
 #include "calibration/optimisers.hpp"
+#include "discovery/linear_model.hpp"
 
 namespace isotach::discovery {
 
@@ -19,13 +19,7 @@ tl::expected<double, FitFailure> log_evidence(const calibration::Problem& proble
   const auto found = calibration::minimise_with_ceres(problem, start, {}, {});
   const auto at = problem.linearise(found.coordinates);
   if (!at) return tl::unexpected(FitFailure{at.error().message});
-  Eigen::MatrixXd information = at->jacobian.transpose() * at->jacobian;
-  const auto& coordinates = problem.parametrisation().coordinates();
-  for (std::size_t k = 0; k < coordinates.size(); ++k) {
-    const double width = coordinates[k].upper - coordinates[k].lower;
-    const auto i = static_cast<Eigen::Index>(k);
-    information(i, i) += 12.0 / (width * width);  // of a uniform distribution
-  }
+  const Eigen::MatrixXd information = information_of(problem, at->jacobian);
   const Eigen::LLT<Eigen::MatrixXd> root(information);
   if (root.info() != Eigen::Success) return tl::unexpected(FitFailure{"the information is not definite"});
   const Eigen::MatrixXd factor = root.matrixL();
@@ -41,18 +35,6 @@ calibration::OedometerFit without(const calibration::OedometerFit& fit, std::siz
   less.experiments[experiment] = std::make_shared<experiments::OedometerExperiment>(
       std::move(test), from.effects(), from.free_effects());
   return less;
-}
-
-/// x of a problem's coordinates, found by name among those of another, which has them all.
-std::vector<double> matched(const std::vector<calibration::Coordinate>& wanted,
-                            const std::vector<calibration::Coordinate>& all, const std::vector<double>& x) {
-  std::vector<double> result;
-  for (const calibration::Coordinate& one : wanted) {
-    const auto same =
-        std::find_if(all.begin(), all.end(), [&](const auto& other) { return other.name == one.name; });
-    result.push_back(x[static_cast<std::size_t>(same - all.begin())]);
-  }
-  return result;
 }
 
 }  // namespace

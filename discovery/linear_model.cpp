@@ -1,6 +1,9 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "discovery/linear_model.hpp"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+
 #include "calibration/effect_sensitivity.hpp"
 
 namespace isotach::discovery {
@@ -11,6 +14,28 @@ using experiments::Linearisation;
 Projection::Projection(const Eigen::MatrixXd& jacobian) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
   basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), qr.rank());
+}
+
+Eigen::MatrixXd information_of(const calibration::Problem& problem, const Eigen::MatrixXd& jacobian) {
+  Eigen::MatrixXd information = jacobian.transpose() * jacobian;
+  const auto& coordinates = problem.parametrisation().coordinates();
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const double width = coordinates[k].upper - coordinates[k].lower;
+    const auto i = static_cast<Eigen::Index>(k);
+    information(i, i) += 12.0 / (width * width);  // of a uniform distribution
+  }
+  return information;
+}
+
+std::vector<double> matched(const std::vector<calibration::Coordinate>& wanted,
+                            const std::vector<calibration::Coordinate>& all, const std::vector<double>& x) {
+  std::vector<double> result;
+  for (const calibration::Coordinate& one : wanted) {
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const auto& other) { return other.name == one.name; });
+    result.push_back(x[static_cast<std::size_t>(same - all.begin())]);
+  }
+  return result;
 }
 
 LinearModel::LinearModel(calibration::Problem problem, std::vector<Linearisation> predictions,
@@ -31,6 +56,11 @@ tl::expected<LinearModel, FitFailure> LinearModel::of(
   auto at = problem.linearise(x);
   if (!at) return tl::unexpected(FitFailure{at.error().message});
   return LinearModel(std::move(problem), std::move(*predictions), std::move(*at));
+}
+
+Eigen::MatrixXd LinearModel::covariance() const {
+  const Eigen::MatrixXd information = information_of(problem_, at_.jacobian);
+  return information.llt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
 
 Eigen::MatrixXd LinearModel::weighted(const std::vector<Linearisation>& changes) const {

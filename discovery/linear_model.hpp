@@ -22,6 +22,16 @@ class Projection {
   Eigen::MatrixXd basis_;
 };
 
+/// Inverse covariance of a problem's coordinates: J'J of the residuals, and that of a coordinate which may
+/// lie anywhere within its bounds, so that one of which the tests say nothing counts as that.
+[[nodiscard]] Eigen::MatrixXd information_of(const calibration::Problem& problem,
+                                             const Eigen::MatrixXd& jacobian);
+
+/// x of the coordinates `wanted`, found by name among `all` coordinates, which have them.
+[[nodiscard]] std::vector<double> matched(const std::vector<calibration::Coordinate>& wanted,
+                                          const std::vector<calibration::Coordinate>& all,
+                                          const std::vector<double>& x);
+
 class LinearModel {
  public:
   /// The model by `weights` (of the fitted tests, as NoiseFit's), at the coordinates x of its fit.
@@ -31,6 +41,8 @@ class LinearModel {
 
   /// Weighted residuals at x, priors below.
   [[nodiscard]] const Eigen::VectorXd& residuals() const { return at_.residuals; }
+  /// Inverse of information_of.
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
   [[nodiscard]] const Projection& parameters() const { return parameters_; }
   [[nodiscard]] const calibration::Experiments& fitted() const { return problem_.fitted(); }
   /// Predictions of the fitted tests at x, with derivatives by the coordinates, not weighted.

@@ -22,7 +22,7 @@ using experiments::OedometerExperiment;
 using experiments::Slot;
 using experiments::Values;
 
-constexpr unsigned kSeed = 2;
+constexpr unsigned kWanderSeed = 2;
 
 /// A fitted test of the model.
 struct Fitted {
@@ -205,7 +205,7 @@ std::vector<double> most_under_noise(const std::vector<Tried>& slots) {
     next += one.basis.cols();
   }
   std::vector<double> most;
-  for_noise_along(all, kSeed, [&](const Eigen::VectorXd& z) {
+  for_noise_along(all, kWanderSeed, [&](const Eigen::VectorXd& z) {
     most.push_back(kNoDeviate);
     next = 0;
     for (const Tried& one : slots) {

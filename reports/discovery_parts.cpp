@@ -60,8 +60,8 @@ std::string gap_words(const GapNouns& nouns, const discovery::Gap& before, const
 
 std::string next_words(const discovery::NextExperiment& next) {
   return fmt::format(
-      "{} {} would part the first two by {} standard deviations of noise (as it was made: {}).", next.test,
-      next.change, three(next.separation), three(next.now));
+      "Next test: {} {} would part the first two by {} standard deviations (repeated as it was made: {}).",
+      next.test, next.change, three(next.separation), three(next.now));
 }
 
 void add_conditions(Page& page, const std::vector<discovery::Condition>& conditions) {

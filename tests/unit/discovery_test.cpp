@@ -5,11 +5,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "discovery/discover.hpp"
 #include "discovery/left_out.hpp"
+#include "discovery/limits.hpp"
 #include "discovery/meets_noise.hpp"
 
 namespace isotach::discovery {
@@ -17,11 +19,11 @@ namespace {
 
 /// The oedometer tests of mud-a with stresses that the model gives, with `effects`, and independent noise of
 /// the size that the study states.
-datasets::Study hidden(const effects::Values<double>& effects) {
+datasets::Study hidden(const effects::Values<double>& effects, unsigned seed = 7) {
   datasets::Study study =
       datasets::read_study(std::filesystem::path(ISOTACH_SOURCE_DIR) / "datasets/mud-a/study.toml");
   study.slump_tests.clear();
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
   for (datasets::OedometerTest& test : study.oedometer_tests) {
     const experiments::OedometerExperiment experiment(test, effects, {});
@@ -171,6 +173,100 @@ TEST(Discovery, ScoresAreThoseOfLeastSquares) {
   }
 }
 
+/// The first of the slots that stand out over that variable.
+const WanderingSlot& first_over(const Wandering& wandering, Along along) {
+  return *std::find_if(wandering.slots.begin(), wandering.slots.end(),
+                       [along](const WanderingSlot& slot) { return slot.along == along; });
+}
+
+// An error of the load cell's zero is in no catalogue: a/sigma of the stress read, and nothing else.
+TEST(Wandering, FindsTheReadingThatIsWrongAndHowWrong) {
+  constexpr double kZero = 400.0;  // Pa
+  datasets::Study study = hidden({});
+  for (datasets::OedometerTest& test : study.oedometer_tests) {
+    for (datasets::OedometerRow& row : test.record.rows) row.axial_stress += kZero;
+  }
+  const auto base = fit_with(study, study.material, {}, quick());
+  ASSERT_TRUE(base.has_value()) << base.error().message;
+  const auto found = let_wander(study, *base, base->fit.noise.weights, 2);
+  ASSERT_TRUE(found.has_value()) << found.error().message;
+  EXPECT_LT(found->p_value, 0.002);
+  const WanderingSlot& first = first_over(*found, Along::stress);
+  EXPECT_EQ(first.slot, experiments::Slot::stress_reading);
+  ASSERT_EQ(first.curves.size(), 1U);
+  EXPECT_EQ(first.curves.front().at.size(), kWanderKnots);
+  // what it changes beyond the base's parameters is what the error does
+  const auto linear =
+      LinearModel::of(study, *base, base->fit.noise.weights, base->fit.result.main.coordinates, 2);
+  ASSERT_TRUE(linear.has_value()) << linear.error().message;
+  std::vector<experiments::Linearisation> error;
+  for (const auto& experiment : base->fit.experiments) {
+    if (experiment->held_out()) continue;
+    const auto count = static_cast<Eigen::Index>(experiment->values().size());
+    error.push_back({experiment->measured(), Eigen::MatrixXd(count, 1)});
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double stress =
+          experiment->row_of(experiment->values()[static_cast<std::size_t>(i)]).axial_stress;
+      error.back().jacobian(i, 0) = std::log(stress / (stress - kZero));
+    }
+  }
+  const auto expected = linear->left_of(error, Eigen::VectorXd::Ones(1));
+  double both = 0.0;
+  double found2 = 0.0;
+  double expected2 = 0.0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    for (std::size_t k = 0; k < expected[i].size(); ++k) {
+      both += expected[i][k] * first.change[i][k];
+      found2 += std::pow(first.change[i][k], 2);
+      expected2 += std::pow(expected[i][k], 2);
+    }
+  }
+  EXPECT_GT(both / std::sqrt(found2 * expected2), 0.9);
+  EXPECT_NEAR(std::sqrt(found2 / expected2), 1.0, 0.2);
+}
+
+// By its own noise a model that made the data is not improved: p is not small, for any of these noises.
+TEST(Wandering, OfTheModelThatMadeTheDataStandsOutNoMoreThanNoise) {
+  int small = 0;
+  constexpr int kStudies = 12;
+  for (unsigned seed = 1; seed <= kStudies; ++seed) {
+    const datasets::Study study = hidden({}, seed);
+    const auto base = fit_with(study, study.material, {}, quick());
+    ASSERT_TRUE(base.has_value()) << base.error().message;
+    const auto found = let_wander(study, *base, base->fit.noise.weights, 2);
+    ASSERT_TRUE(found.has_value()) << found.error().message;
+    EXPECT_GT(found->p_value, 0.002) << seed;
+    small += found->p_value < 0.25 ? 1 : 0;
+  }
+  EXPECT_GE(small, 1) << "p is uniform: none of twelve below a quarter has odds of 3 in 100";
+  EXPECT_LE(small, 7) << "nor more than seven, of 0.3 in 100";
+}
+
+// The stage named first is the one where what the effect changes, freed of what the base can do, is largest.
+TEST(Disagreement, IsRankedByWhatTheExplanationChanges) {
+  const effects::Effect& friction = *effects::find_effect("ring_friction");
+  const datasets::Study study =
+      hidden(*effects::Values<double>::create({effects::with_amplitude(friction, 0.1)}));
+  const auto base = fit_with(study, study.material, {}, quick());
+  const auto with = fit_with(study, study.material, {&friction}, quick());
+  ASSERT_TRUE(base.has_value() && with.has_value());
+  std::vector<Disagreement> places = disagreement_of(base->fit);
+  ASSERT_FALSE(rank_by_explanation(study, *base, *with, with->fit.noise.weights, 2, places));
+  double total = 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    EXPECT_EQ(places[k].explained.has_value(), !places[k].held_out);
+    if (k > 0) {
+      EXPECT_GE(places[k - 1].explained, places[k].explained);
+    }
+    if (places[k].explained) total += std::pow(*places[k].explained, 2);
+  }
+  // the friction is strong: residuals of the base are what it changes, and noise; but the base's fit weighed
+  // by a noise of its own
+  double squares = 0.0;
+  for (const Disagreement& place : places) squares += place.held_out ? 0.0 : std::pow(place.score, 2);
+  EXPECT_NEAR(total / squares, 1.0, 0.3);
+}
+
 TEST(Discovery, EffectsLeftOutAreNotTried) {
   const effects::Effect& friction = *effects::find_effect("ring_friction");
   const datasets::Study study =
@@ -194,6 +290,35 @@ double log_normal(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eige
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
   const Eigen::MatrixXd factor = root.matrixL();
   return -0.5 * root.matrixL().solve(r).squaredNorm() - factor.diagonal().array().log().sum();
+}
+
+// docs/discovery.md: two tests that cannot tell two effects apart, and the test that is asked for.
+TEST(NextExperiment, PartsTheExplanationsAsItWasPredictedTo) {
+  const auto folder = std::filesystem::path(ISOTACH_SOURCE_DIR) / "docs/discovery";
+  const Discovery first = discovered(datasets::read_study(folder / "first.toml"));
+  ASSERT_EQ(first.verdict, Verdict::ambiguous);
+  ASSERT_TRUE(first.next);
+  EXPECT_EQ(first.next->test, "fast");
+  EXPECT_EQ(first.next->change, "followed by unloading and reloading by 2 % of strain");
+  EXPECT_LT(first.next->now, 0.5 * first.next->separation);
+  const Discovery second = discovered(datasets::read_study(folder / "second.toml"));
+  ASSERT_EQ(second.verdict, Verdict::named);
+  EXPECT_EQ(name_of(second.trials.front().candidate), "apparatus_compliance");
+  const effects::Effect& frame = *effects::find_effect("apparatus_compliance");
+  EXPECT_NEAR((second.trials.front().candidate.fit.effects[effects::ParameterRef{&frame, 0}]), 1.5e-9, 1e-10);
+  // by how much chi-squared of the two comes apart: the square of the separation, with the spread of a
+  // noncentral chi-squared
+  const auto apart = [](const Discovery& found) {
+    const auto of = [&](std::string_view name) {
+      return std::find_if(found.trials.begin(), found.trials.end(),
+                          [&](const Trial& trial) { return name_of(trial.candidate) == name; })
+          ->candidate.chi_squared;
+    };
+    return of("gas") - of("apparatus_compliance");
+  };
+  const double gain = apart(second) - apart(first);
+  const double separation = first.next->separation;
+  EXPECT_NEAR(gain, separation * separation, 3.0 * 2.0 * separation);
 }
 
 TEST(LeftOut, IsTheDensityOfAPredictionWithItsUncertainty) {
