@@ -15,9 +15,9 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <random>
 
+#include "bench/outline_noise.hpp"
 #include "calibration/fit_slump.hpp"
 #include "calibration/profile_verdict.hpp"
 #include "calibration/slump_map.hpp"
@@ -106,30 +106,6 @@ std::shared_ptr<const calibration::SlumpSurrogate> learn(const Problem& problem,
   return std::make_shared<calibration::SlumpSurrogate>(problem, box, set);
 }
 
-/// Smooth errors of one test's points (m), and each point's own, `times` the usual.
-experiments::Values errors_of(const SlumpExperiment& test, double times, std::mt19937_64& random) {
-  std::normal_distribution<double> normal(0.0, 1.0);
-  constexpr int kWaves = 4;
-  double kept[kWaves];
-  for (double& amplitude : kept) amplitude = normal(random);
-  experiments::Values errors(test.outline_index().size());
-  std::size_t outline = std::size_t(-1);
-  double waves[kWaves] = {};
-  for (const experiments::OutlineStation& station : test.stations()) {
-    if (station.outline != outline) {
-      outline = station.outline;
-      for (int w = 0; w < kWaves; ++w) waves[w] = (kept[w] + normal(random)) / std::numbers::sqrt2;
-    }
-    double shared = waves[0];
-    for (int w = 1; w < kWaves; ++w) {
-      shared += std::numbers::sqrt2 * waves[w] * std::cos(w * std::numbers::pi * station.place);
-    }
-    shared *= kShared / std::sqrt(double(kWaves));
-    for (const std::size_t i : station.points) errors[i] = times * (shared + kReading * normal(random));
-  }
-  return errors;
-}
-
 /// A test with what was measured at the truth in the place of nothing.
 class Measured final : public experiments::Experiment {
  public:
@@ -206,7 +182,8 @@ void one_study(const Problem& fitter, const Problem& generator, const Eigen::Mat
   calibration::Experiments measured;
   for (const std::size_t t : used) {
     experiments::Values values = *generator.fitted()[t]->predict(*true_parameters, {});
-    const experiments::Values noise = tests[t]->decorrelated(errors_of(*tests[t], times, random));
+    const experiments::Values noise =
+        tests[t]->decorrelated(bench::draw_errors(*tests[t], {times * kReading, times * kShared}, random));
     for (std::size_t i = 0; i < values.size(); ++i) values[i] += noise[i];
     measured.push_back(std::make_shared<Measured>(fitter.fitted()[t], std::move(values)));
   }

@@ -1,0 +1,241 @@
+// Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
+#include "bench/discovery/slump_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "bench/discovery/made_study.hpp"
+#include "bench/outline_noise.hpp"
+#include "bench/synthetic_oedometer.hpp"
+#include "datasets/slump_effects.hpp"
+#include "discovery/linear_model.hpp"
+
+namespace isotach::bench {
+
+namespace {
+
+using datasets::SlumpTest;
+using model::ParameterId;
+
+constexpr int kFitterCells = 5;      // across the mould's radius: 7.8 mm
+constexpr int kReferenceCells = 7;   // 5.6 mm, the plain scheme
+constexpr int kGeneratorCells = 8;   // 4.9 mm, the plain scheme, other points and tolerance
+constexpr double kLongest = 10.0;    // s, of mud
+constexpr std::size_t kPoints = 30;  // of an outline
+constexpr OutlineNoise kNoise{0.4e-3, 0.3e-3};
+// what oedometer tests leave of I_v (relative) and C_1
+constexpr double kKnownViscosity = 0.03;
+constexpr double kKnownC1 = 0.005;
+
+void set_cells(mpm::Numerics& numerics, const SlumpTest& test, int cells) {
+  numerics.cell_size = 0.5 * test.setup.mould.diameter / cells;
+}
+
+/// The material that datasets/mud-a states, I_v times a factor within +-25 % and another C_1.
+model::Parameters<double> random_truth(const model::Parameters<double>& stated, std::mt19937_64& random) {
+  model::ParameterValues<double> values = stated.values();
+  values[ParameterId::I_v] *= 0.75 + 0.5 * uniform(random);
+  values[ParameterId::C_1] = 0.03 + 0.1 * uniform(random);
+  return *model::Parameters<double>::create(values);
+}
+
+/// Three tests of datasets/mud-a and one held out, without what was measured.
+std::vector<SlumpTest> blank_tests(const datasets::Study& from) {
+  std::vector<SlumpTest> tests;
+  for (const std::string name : {"slump-1", "slump-2", "slump-3", "slump-4"}) {
+    const auto found = std::find_if(from.slump_tests.begin(), from.slump_tests.end(),
+                                    [&](const SlumpTest& test) { return test.name == name; });
+    SlumpTest test = *found;
+    std::erase_if(test.outlines, [](const datasets::Outline& outline) { return outline.time > kLongest; });
+    test.setup.times.clear();
+    for (const datasets::Outline& outline : test.outlines) test.setup.times.push_back(outline.time);
+    const double all = std::hypot(kNoise.reading, kNoise.shared);
+    test.noise = {all, all, kNoise.shared};
+    test.hold_out = name == "slump-4";
+    test.reference.reset();
+    tests.push_back(std::move(test));
+  }
+  return tests;
+}
+
+tl::expected<mpm::SlumpResult, mpm::RunFailure> simulate(const std::string& /*test*/,
+                                                         const model::Parameters<double>& parameters,
+                                                         const mpm::SlumpSetup& setup) {
+  mpm::RunOptions options;
+  options.history = false;
+  auto result = mpm::run_slump(parameters, setup, options);
+  if (result) return std::move(*result);
+  return tl::unexpected(mpm::RunFailure{mpm::status_of(result.error()), result.error().message});
+}
+
+/// The generator: tests with numerics of its own, at the truth.
+class Generator {
+ public:
+  Generator(std::vector<SlumpTest> tests, const model::Parameters<double>& truth)
+      : tests_(std::move(tests)), truth_(truth) {
+    for (SlumpTest& test : tests_) {
+      mpm::Numerics& numerics = test.setup.numerics;
+      set_cells(numerics, test, kGeneratorCells);
+      numerics.scheme = mpm::Scheme::plain;
+      numerics.points_per_cell = 9;
+      numerics.tolerance = 1e-3;
+    }
+  }
+
+  /// Puts what the tests show with the effects in the place of what was measured.
+  [[nodiscard]] std::optional<std::string> measure(const effects::Values<double>& effects) {
+    for (SlumpTest& test : tests_) {
+      const auto result = simulate(test.name, truth_, datasets::with_effects(test.setup, effects));
+      if (!result) return test.name + ": " + result.error().message;
+      for (std::size_t k = 0; k < test.outlines.size(); ++k) {
+        test.outlines[k].points.clear();
+        for (const auto& point : experiments::resampled(result->outlines[k].points, kPoints)) {
+          test.outlines[k].points.push_back({point.r, point.z});
+        }
+      }
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] const std::vector<SlumpTest>& tests() const { return tests_; }
+
+  /// Decorrelated distances of the fitted tests' outlines, as they were measured, from those with effects.
+  [[nodiscard]] std::optional<Eigen::VectorXd> seen(const effects::Values<double>& effects,
+                                                    const model::Parameters<double>& parameters) const {
+    std::vector<double> all;
+    for (const SlumpTest& test : tests_) {
+      if (test.hold_out) continue;
+      const experiments::SlumpExperiment experiment(test, {.simulate = simulate, .effects = effects});
+      const auto values = experiment.predict(parameters, experiment.local_values());
+      if (!values) return std::nullopt;
+      all.insert(all.end(), values->begin(), values->end());
+    }
+    return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  }
+
+ private:
+  std::vector<SlumpTest> tests_;
+  model::Parameters<double> truth_;
+};
+
+/// What the base can do: derivatives by ln I_v and C_1, in units of what is known of them, with the rows that
+/// this knowledge is.
+std::optional<discovery::Projection> base_of(const Generator& generator,
+                                             const model::Parameters<double>& truth,
+                                             const Eigen::VectorXd& unchanged) {
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(unchanged.size() + 2, 2);
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    model::ParameterValues<double> moved = truth.values();
+    if (k == 0) {
+      moved[ParameterId::I_v] *= std::exp(kKnownViscosity);
+    } else {
+      moved[ParameterId::C_1] += kKnownC1;
+    }
+    const auto there = generator.seen({}, *model::Parameters<double>::create(moved));
+    if (!there) return std::nullopt;
+    jacobian.col(k).head(unchanged.size()) = *there - unchanged;
+    jacobian(unchanged.size() + k, k) = 1.0;
+  }
+  return discovery::Projection(jacobian);
+}
+
+/// Moves each point along its outline's normal by its error, outwards.
+void add_noise(SlumpTest& test, std::mt19937_64& random) {
+  const experiments::SlumpExperiment experiment(test);
+  const experiments::Values errors = draw_errors(experiment, kNoise, random);
+  std::size_t next = 0;
+  for (datasets::Outline& outline : test.outlines) {
+    const auto points = outline.points;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const auto& before = points[k > 0 ? k - 1 : k];
+      const auto& behind = points[std::min(k + 1, points.size() - 1)];
+      const double along_r = behind.r - before.r;
+      const double along_z = behind.z - before.z;
+      const double length = std::hypot(along_r, along_z);
+      const double error = errors[next++];
+      // from the toe to the axis outwards is to the right
+      outline.points[k].r += error * along_z / length;
+      outline.points[k].z -= error * along_r / length;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SlumpCase> slump_plan() {
+  constexpr int kRounds = 5;
+  constexpr int kNulls = 2;
+  std::vector<SlumpCase> plan;
+  for (int round = 0; round < kRounds; ++round) {
+    int turn = round;
+    for (const effects::Effect* effect : effects::catalogue()) {
+      if (effect->test != effects::TestKind::slump) continue;
+      plan.push_back({plan.size(), effect, turn++ % 2 == 0 ? 30.0 : 10.0});
+    }
+    for (int k = 0; k < kNulls; ++k) plan.push_back({plan.size(), nullptr, 0.0});
+  }
+  return plan;
+}
+
+tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one, std::uint64_t seed) {
+  std::seed_seq mixed{seed, static_cast<std::uint64_t>(one.number), std::uint64_t{7}};
+  std::mt19937_64 random(mixed);
+  std::normal_distribution<double> normal;
+  const datasets::Study from =
+      datasets::read_study(std::filesystem::path(ISOTACH_SOURCE_DIR) / "datasets/mud-a/study.toml");
+  const model::Parameters<double> truth = random_truth(from.material, random);
+  MadeSlumpStudy made{{"synthetic", {}, truth, {}, {}, {}, blank_tests(from), {}}, {truth, {}}};
+  Generator generator(made.study.slump_tests, truth);
+  effects::Values<double> hidden;
+  if (auto failure = generator.measure({})) return tl::unexpected(*failure);
+  if (one.effect != nullptr) {
+    const auto unchanged = generator.seen({}, truth);
+    const auto base = unchanged ? base_of(generator, truth, *unchanged) : std::nullopt;
+    if (!base) return tl::unexpected(std::string("no derivatives at the truth"));
+    const auto with = [&](double amplitude) {
+      return effects::Values<double>::create({effects::with_amplitude(*one.effect, amplitude)});
+    };
+    const auto shown = [&](double amplitude) -> std::optional<double> {
+      const auto on = with(amplitude);
+      if (!on) return std::nullopt;
+      const auto there = generator.seen(*on, truth);
+      if (!there) return std::nullopt;
+      Eigen::VectorXd change = Eigen::VectorXd::Zero(unchanged->size() + 2);
+      change.head(unchanged->size()) = *there - *unchanged;
+      return base->freed(change).norm();
+    };
+    const effects::EffectParameter& info = one.effect->parameters[0];
+    const Sought sought = seek_visibility(shown, info.typical_si(), info.upper_si(), one.visibility);
+    made.amplitude = sought.amplitude;
+    made.visibility = sought.visibility;
+    made.reached = sought.reached;
+    if (!made.reached) return made;
+    hidden = *with(sought.amplitude);
+    if (auto failure = generator.measure(hidden)) return tl::unexpected(*failure);
+  }
+  for (std::size_t i = 0; i < generator.tests().size(); ++i) {
+    SlumpTest& test = made.study.slump_tests[i];
+    test.outlines = generator.tests()[i].outlines;
+    add_noise(test, random);
+    set_cells(test.setup.numerics, test, kFitterCells);
+    test.reference = test.setup.numerics;
+    set_cells(*test.reference, test, kReferenceCells);
+    test.reference->scheme = mpm::Scheme::plain;
+  }
+  // oedometer tests know I_v and C_1 so well, and the rest exactly
+  model::ParameterValues<double> known = truth.values();
+  known[ParameterId::I_v] *= std::exp(kKnownViscosity * normal(random));
+  known[ParameterId::C_1] = std::max(0.0, known[ParameterId::C_1] + kKnownC1 * normal(random));
+  const auto place = [](ParameterId id) { return static_cast<std::size_t>(id); };
+  made.knowledge.parameters = *model::Parameters<double>::create(known);
+  made.knowledge.priors[place(ParameterId::I_v)] =
+      datasets::Prior{known[ParameterId::I_v], kKnownViscosity * known[ParameterId::I_v]};
+  made.knowledge.priors[place(ParameterId::C_1)] = datasets::Prior{known[ParameterId::C_1], kKnownC1};
+  made.study.material = made.knowledge.parameters;
+  made.study.fit.slump = {ParameterId::I_v, ParameterId::C_1};
+  made.study.fit.bounds[place(ParameterId::I_v)] = datasets::Bounds{0.01, 0.1};
+  made.study.fit.bounds[place(ParameterId::C_1)] = datasets::Bounds{0.0, 0.3};
+  return made;
+}
+
+}  // namespace isotach::bench
