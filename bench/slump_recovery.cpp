@@ -49,15 +49,7 @@ datasets::Study base_study() {
   return study;
 }
 
-tl::expected<mpm::SlumpResult, mpm::RunFailure> simulate(const std::string&,
-                                                         const model::Parameters<double>& parameters,
-                                                         const mpm::SlumpSetup& setup) {
-  mpm::RunOptions options;
-  options.history = false;
-  auto result = mpm::run_slump(parameters, setup, options);
-  if (result) return std::move(*result);
-  return tl::unexpected(mpm::RunFailure{mpm::status_of(result.error()), result.error().message});
-}
+const experiments::Simulate simulate = calibration::plain_simulation(nullptr);
 
 void set_cells(datasets::Study& study, int cells) {
   for (datasets::SlumpTest& test : study.slump_tests) {

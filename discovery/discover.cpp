@@ -72,6 +72,7 @@ class Search {
     }
     if (auto failure = decide()) return tl::unexpected(*failure);
     if (auto failure = place()) return tl::unexpected(*failure);
+    propose_next();
     tell(1.0, "done");
     return std::move(found_);
   }
@@ -305,9 +306,6 @@ class Search {
       return std::nullopt;
     }
     found_.verdict = Verdict::ambiguous;
-    const Candidate& other = found_.trials.size() > 1 ? found_.trials[1].candidate : found_.base.candidate;
-    found_.next =
-        tell_apart(study_, best.candidate, other, best.candidate.fit.noise.weights, options_.threads);
     return std::nullopt;
   }
 
@@ -317,6 +315,15 @@ class Search {
     const Candidate& best = found_.trials.front().candidate;
     return rank_by_explanation(study_, found_.base.candidate, best, best.fit.noise.weights, options_.threads,
                                found_.disagreement);
+  }
+
+  /// The test that would part the best two explanations, where they are more than one and none is named.
+  void propose_next() {
+    const bool meets = !found_.trials.empty() && found_.trials.front().adequacy.meets_noise;
+    if (found_.verdict != Verdict::ambiguous && !(found_.verdict == Verdict::unknown && meets)) return;
+    const Candidate& best = found_.trials.front().candidate;
+    const Candidate& other = found_.trials.size() > 1 ? found_.trials[1].candidate : found_.base.candidate;
+    found_.next = tell_apart(study_, best, other, best.fit.noise.weights, options_.threads);
   }
 
   const datasets::Study& study_;

@@ -62,8 +62,9 @@ struct Discovery {
   std::vector<Disagreement> disagreement;  ///< ranked, by the best trial where that is an explanation
   /// Gap of the best trial that is not the first (fitted tests); NaN where there is none.
   double best_wrong = std::numeric_limits<double>::quiet_NaN();
-  double smoother = 0.0;               ///< gap that a smoother of the base's residuals leaves
-  std::optional<NextExperiment> next;  ///< where ambiguous
+  double smoother = 0.0;  ///< gap that a smoother of the base's residuals leaves
+  /// Where ambiguous, or unknown though the best trial meets the noise that the study states.
+  std::optional<NextExperiment> next;
 
   /// What was chosen, else the base.
   [[nodiscard]] const Trial& answer() const { return chosen ? trials[*chosen] : base; }

@@ -1,6 +1,8 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "discovery/wandering.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -78,13 +80,14 @@ std::vector<double> knots_of(std::vector<double> values) {
 Eigen::MatrixXd hats(const std::vector<double>& knots, const std::vector<double>& values) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(values.size()),
                                               static_cast<Eigen::Index>(knots.size()));
+  if (knots.size() == 1) return all.setOnes();  // of a variable that stays
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const double value = std::clamp(values[i], knots.front(), knots.back());
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, value);
     const auto k = static_cast<Eigen::Index>(above - knots.begin());
     const double from = *(above - 1);
-    const double share = *above > from ? (value - from) / (*above - from) : 0.0;
+    const double share = (value - from) / (*above - from);
     all(row, k - 1) = 1.0 - share;
     all(row, k) = share;
   }
@@ -173,6 +176,10 @@ tl::expected<Tried, FitFailure> try_slot(const Candidate& model, const LinearMod
   }
   const double plausible = info_of(slot).plausible;
   Eigen::MatrixXd left = linear.weighted(changes) * plausible;
+  if (!left.allFinite()) {
+    return tl::unexpected(FitFailure{
+        fmt::format("derivatives by a {} that wanders are not finite", experiments::info_of(slot).name)});
+  }
   for (Eigen::Index k = 0; k < left.cols(); ++k) left.col(k) = linear.parameters().freed(left.col(k));
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU | Eigen::ComputeThinV);
   Eigen::Index rank = 0;

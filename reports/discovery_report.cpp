@@ -35,6 +35,19 @@ std::string gap_words(const Discovery& found, const Trial& after) {
                             found.smoother);
 }
 
+/// How far the best explanation goes that could not be named.
+void add_best_unnamed(Page& page, const Discovery& found) {
+  const Trial& best = found.trials.front();
+  if (best.adequacy.meets_noise) {
+    page.verdict(Tone::plain,
+                 fmt::format("To within the noise that the study states the data are consistent with {}; but "
+                             "it does not meet the conditions of a name.",
+                             name_of(best.candidate)));
+  }
+  page.verdict(Tone::plain, gap_words(found, best));
+  if (found.next) page.verdict(Tone::plain, next_words(*found.next));
+}
+
 void add_verdict(Page& page, const Discovery& found) {
   using discovery::Verdict;
   switch (found.verdict) {
@@ -75,8 +88,8 @@ void add_verdict(Page& page, const Discovery& found) {
           Tone::bad,
           "The model does not suffice, and no effect of the catalogue, nor two of them, can be named "
           "for it: see where it fails.");
+      if (!found.trials.empty()) add_best_unnamed(page, found);
       page.verdict(Tone::plain, wander_words(found.wandering));
-      if (!found.trials.empty()) page.verdict(Tone::plain, gap_words(found, found.trials.front()));
       return;
   }
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "discovery/score_test.hpp"
 #include "reports/json_number.hpp"
@@ -74,14 +75,13 @@ std::string wander_words(const Wandering& wandering) {
       most = std::max(most, change);
     }
   }
-  const auto words = [&](double change) {
-    return experiments::info_of(best.slot).logarithmic
-               ? fmt::format("{:+.2g} %", shown_change(best, change))
-               : fmt::format("{:+.2g}e-3", shown_change(best, change));
-  };
+  const std::string range =
+      experiments::info_of(best.slot).logarithmic
+          ? fmt::format("by factors from {:.2g} to {:.2g}", std::exp(least), std::exp(most))
+          : fmt::format("by {:+.2g} to {:+.2g}", least, most);
   return fmt::format(
-      "Of single constants and readings, {} would close the gap best, wandering from {} to {} ({}).",
-      title_of(best), words(least), words(most), discovery::p_words(wandering.p_value));
+      "Of single constants and readings, {} would close the gap best, to first order wandering {} ({}).",
+      title_of(best), range, discovery::p_words(wandering.p_value));
 }
 
 void add_wandering(Page& page, const Wandering& wandering) {

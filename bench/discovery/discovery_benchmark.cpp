@@ -30,12 +30,8 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::filesystem::rename(temporary, file);
 }
 
-void report(const std::filesystem::path& folder, const std::vector<bench::Record>& all, std::size_t planned,
-            std::uint64_t seed) {
-  std::vector<bench::Record> records;
-  for (const bench::Record& record : all) {
-    if (record.seed == seed) records.push_back(record);
-  }
+void report(const std::filesystem::path& folder, const std::vector<bench::Record>& records,
+            std::size_t planned, std::uint64_t seed) {
   write(folder / "results.md", bench::results_page(records, planned, seed));
   write(folder / "outcomes.csv", bench::outcomes_csv(records));
   write(folder / "rates.csv", bench::rates_csv(bench::rates_of(records)));
@@ -81,7 +77,7 @@ int main(int argc, char** argv) {
                  bench::outcome_of(record), record.seconds, record.why);
       std::fflush(stdout);
     });
-    report(folder, journal.records(), plan.size(), seed);
+    report(folder, journal.of(seed), plan.size(), seed);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

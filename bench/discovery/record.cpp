@@ -115,6 +115,15 @@ Journal::Journal(const std::filesystem::path& file) {
   if (!stream_) throw std::runtime_error("cannot write " + file.string());
 }
 
+std::vector<Record> Journal::of(std::uint64_t seed) const {
+  std::vector<Record> found;
+  for (const Record& record : records_) {
+    if (record.seed == seed) found.push_back(record);
+  }
+  std::sort(found.begin(), found.end(), [](const Record& a, const Record& b) { return a.number < b.number; });
+  return found;
+}
+
 bool Journal::has(std::size_t number, std::uint64_t seed) const {
   const std::lock_guard lock(mutex_);
   return std::any_of(records_.begin(), records_.end(),

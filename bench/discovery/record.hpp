@@ -58,6 +58,8 @@ class Journal {
   explicit Journal(const std::filesystem::path& file);
 
   [[nodiscard]] const std::vector<Record>& records() const { return records_; }
+  /// Those of a seed, by number.
+  [[nodiscard]] std::vector<Record> of(std::uint64_t seed) const;
   [[nodiscard]] bool has(std::size_t number, std::uint64_t seed) const;
   /// Writes the record through to the file.
   void add(const Record& record);

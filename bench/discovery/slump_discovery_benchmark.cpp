@@ -181,14 +181,8 @@ int main(int argc, char** argv) {
                  fmt::join(record.first, " + "), record.seconds, record.why);
       std::fflush(stdout);
     });
-    std::vector<Record> records;
-    for (const Record& record : journal.records()) {
-      if (record.seed == seed) records.push_back(record);
-    }
-    std::sort(records.begin(), records.end(),
-              [](const Record& a, const Record& b) { return a.number < b.number; });
     std::ofstream stream(std::filesystem::path(folder) / "slump-results.md");
-    stream << page(records, plan.size());
+    stream << page(journal.of(seed), plan.size());
     if (!stream.flush()) throw std::runtime_error("cannot write slump-results.md");
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());

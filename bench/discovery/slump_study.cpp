@@ -8,6 +8,7 @@
 #include "bench/discovery/made_study.hpp"
 #include "bench/outline_noise.hpp"
 #include "bench/synthetic_oedometer.hpp"
+#include "calibration/fit_slump.hpp"
 #include "datasets/slump_effects.hpp"
 #include "discovery/linear_model.hpp"
 
@@ -59,15 +60,7 @@ std::vector<SlumpTest> blank_tests(const datasets::Study& from) {
   return tests;
 }
 
-tl::expected<mpm::SlumpResult, mpm::RunFailure> simulate(const std::string& /*test*/,
-                                                         const model::Parameters<double>& parameters,
-                                                         const mpm::SlumpSetup& setup) {
-  mpm::RunOptions options;
-  options.history = false;
-  auto result = mpm::run_slump(parameters, setup, options);
-  if (result) return std::move(*result);
-  return tl::unexpected(mpm::RunFailure{mpm::status_of(result.error()), result.error().message});
-}
+const experiments::Simulate simulate = calibration::plain_simulation(nullptr);
 
 /// The generator: tests with numerics of its own, at the truth.
 class Generator {
