@@ -233,6 +233,9 @@ std::vector<Rate> rates_of(const std::vector<Record>& records) {
             rich("outside", 0.0), unknown),
       count(records, "so, given a name", {}, rich("outside", 0.0), is_named),
       count(
+          records, "so, called unknown where 5 sigma are left beside the best effect", {},
+          [&](const Record& r) { return rich("outside", 0.0)(r) && r.beside >= kLeastBeside; }, unknown),
+      count(
           records, "hidden effect deleted, called unknown, rich protocol, 5 sigma left", {.least = 75.0},
           [&](const Record& r) { return rich("deleted", 0.0)(r) && r.beside >= kLeastBeside; }, unknown),
       count(

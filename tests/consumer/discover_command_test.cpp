@@ -48,11 +48,23 @@ TEST_F(DiscoverCommand, NamesWhatClosesTheGapOfMudB) {
   EXPECT_GT(gap["best_wrong_after"].get<double>(), 2.0 * gap["after"].get<double>());
   const std::string effect = oedometer["effects"][0];
   EXPECT_FALSE(oedometer["effect_parameters"][effect].empty());
+  // by what the name explains, then the stages of the test held out by their residuals
   double before = std::numeric_limits<double>::infinity();
+  bool held_out = false;
   for (const json& place : oedometer["disagreement"]) {
-    EXPECT_LE(place["score"].get<double>(), before) << "ranked";
-    before = place["score"];
+    if (place["held_out"].get<bool>() && !held_out) {
+      held_out = true;
+      before = std::numeric_limits<double>::infinity();
+    }
+    EXPECT_EQ(place["held_out"].get<bool>(), held_out) << "those of fitted tests come first";
+    EXPECT_EQ(place["explained"].is_null(), held_out);
+    const double rank = held_out ? place["score"].get<double>() : place["explained"].get<double>();
+    EXPECT_LE(rank, before) << "ranked";
+    before = rank;
   }
+  EXPECT_TRUE(held_out);
+  EXPECT_LT(oedometer["wandering"]["p_value"].get<double>(), 0.002);
+  EXPECT_EQ(oedometer["wandering"]["slots"].size(), 14U);
   EXPECT_FALSE(contents("out/report.html").empty());
 
   // the answer is the next study's: its [effects] included
