@@ -166,7 +166,12 @@ tl::expected<Linearised, experiments::PredictionFailure> Problem::linearise(
     const std::vector<double>& x) const {
   const auto all = predictions(x);
   if (!all) return tl::unexpected(all.error());
-  Linearised result = weighted(*all);
+  return linearised(x, *all);
+}
+
+Linearised Problem::linearised(const std::vector<double>& x,
+                               const std::vector<experiments::Linearisation>& predictions) const {
+  Linearised result = weighted(predictions);
   const auto rows = static_cast<Eigen::Index>(residual_count());
   result.residuals.conservativeResize(rows);
   result.jacobian.conservativeResize(rows, static_cast<Eigen::Index>(x.size()));

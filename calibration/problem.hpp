@@ -69,6 +69,9 @@ class Problem {
       const std::vector<double>& x) const;
   [[nodiscard]] tl::expected<Linearised, experiments::PredictionFailure> linearise(
       const std::vector<double>& x) const;
+  /// The same of predictions that were made at x.
+  [[nodiscard]] Linearised linearised(const std::vector<double>& x,
+                                      const std::vector<experiments::Linearisation>& predictions) const;
   /// Predictions of each fitted experiment with their derivatives by the coordinates, not weighted.
   [[nodiscard]] tl::expected<std::vector<experiments::Linearisation>, experiments::PredictionFailure>
   predictions(const std::vector<double>& x) const;

@@ -53,9 +53,8 @@ tl::expected<LinearModel, FitFailure> LinearModel::of(
   problem.set_weights(weights);
   auto predictions = problem.predictions(x);
   if (!predictions) return tl::unexpected(FitFailure{predictions.error().message});
-  auto at = problem.linearise(x);
-  if (!at) return tl::unexpected(FitFailure{at.error().message});
-  return LinearModel(std::move(problem), std::move(*predictions), std::move(*at));
+  calibration::Linearised at = problem.linearised(x, *predictions);
+  return LinearModel(std::move(problem), std::move(*predictions), std::move(at));
 }
 
 Eigen::MatrixXd LinearModel::covariance() const {
