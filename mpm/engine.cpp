@@ -297,7 +297,7 @@ void Engine::update(double dt) {
         const auto [begin, end] = share(body.particles, k);
         auto& pressures = k == 0 ? field.corners.pressures : field.pressures[static_cast<std::size_t>(k - 1)];
         pressures.clear();
-        update_points<S>(body.particles, begin, end, grid_, dt, mean_rate, *body.material,
+        update_points<S>(body.particles, begin, end, grid_, {time_, dt}, mean_rate, *body.material,
                          body.averaged ? &pressures : nullptr, counts[static_cast<std::size_t>(k)]);
       });
     });

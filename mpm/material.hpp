@@ -17,6 +17,7 @@ inline constexpr std::size_t kChunk = 1024;
 struct MaterialChunk {
   std::size_t begin = 0;                                              ///< a multiple of kBlock
   std::size_t count = 0;                                              ///< <= kChunk
+  double time = 0.0;                                                  ///< s, at the start of the step
   double dt = 0.0;                                                    ///< s
   alignas(64) std::array<std::array<double, kChunk>, 4> strain_rate;  ///< plane Mandel (1/s)
   alignas(64) std::array<double, kChunk> spin;                        ///< W_rz (1/s)

@@ -18,8 +18,9 @@ constexpr double kStick = 0.25;
 
 void MouldContact::add(const ForceBlock& block) const {
   const Particles& q = block.particles;
-  const double rim = mould_.rim(block.time);
-  const double rim_velocity = mould_.rim_velocity(block.time);
+  const double rim = setup_.mould.rim(block.time);
+  const double rim_velocity = setup_.mould.rim_velocity(block.time);
+  const Wall wall = setup_.wall_at(block.time);
   for (std::size_t p = 0; p < block.count; p += kOctet) {
     // most points are far from the wall: eight at a time
     const std::size_t first = block.begin + p;
@@ -34,7 +35,7 @@ void MouldContact::add(const ForceBlock& block) const {
       const double arm = r - q.r[i];
       const WallForce f = force({q.r[i], q.z[i], q.velocity_r[i] + arm * q.c_rr[i],
                                  q.velocity_z[i] + arm * q.c_zr[i], q.mass[i], -block.stress_rr[p + lane]},
-                                rim, rim_velocity, block.dt);
+                                wall, rim, rim_velocity, block.dt);
       if (f.r != 0.0 || f.z != 0.0) block.loads.add_at(r, q.z[i], f.r, f.z);
     }
   }
@@ -47,7 +48,8 @@ double MouldContact::outer_traction(const WallPoint& point, double pressure) con
                     pressure);
 }
 
-WallForce MouldContact::force(const WallPoint& point, double rim, double rim_velocity, double dt) const {
+WallForce MouldContact::force(const WallPoint& point, const Wall& wall, double rim, double rim_velocity,
+                              double dt) const {
   const double covered = point.z + half_size_ - rim;
   if (covered <= 0.0) return {};
   const double share = std::min(1.0, covered / (2.0 * half_size_));
@@ -67,9 +69,9 @@ WallForce MouldContact::force(const WallPoint& point, double rim, double rim_vel
       constants_.normal_stiffness * depth + constants_.normal_damping * point.velocity_r, 0.0, most);
   WallForce f;
   f.r = -traction * area;
-  if (!mould_.wall.is_smooth()) {
+  if (!wall.is_smooth()) {
     const double stick = share * kStick * point.mass * (rim_velocity - point.velocity_z) / dt;
-    const double limit = (share * mould_.wall.adhesion + mould_.wall.friction * traction) * area;
+    const double limit = (share * wall.adhesion + wall.friction * traction) * area;
     f.z = std::clamp(stick, -limit, limit);
   }
   return f;

@@ -45,16 +45,19 @@ class MouldContact final : public PointForce {
     /// Weight of the mud (N/m3): the wall carries the pressure of the filled mould without being pushed.
     double unit_weight = 0.0;
   };
-  MouldContact(const Mould& mould, const Constants& constants)
-      : mould_(mould),
-        radius_(0.5 * mould.diameter),
+  /// The mould of a setup, its wall as it is at each time.
+  MouldContact(const SlumpSetup& setup, const Constants& constants)
+      : setup_(setup),
+        radius_(0.5 * setup.mould.diameter),
         half_size_(0.5 * constants.point_size),
         constants_(constants) {}
 
   void add(const ForceBlock& block) const override;
 
-  /// Force on a point when the rim is at `rim` (m), moving at `rim_velocity` (m/s), in a step of dt (s).
-  [[nodiscard]] WallForce force(const WallPoint& point, double rim, double rim_velocity, double dt) const;
+  /// Force of a wall on a point when the rim is at `rim` (m), moving at `rim_velocity` (m/s), in a step of dt
+  /// (s).
+  [[nodiscard]] WallForce force(const WallPoint& point, const Wall& wall, double rim, double rim_velocity,
+                                double dt) const;
 
  private:
   /// Traction (Pa) outwards on a point beside the wall, up to `pressure` (Pa).
@@ -62,10 +65,10 @@ class MouldContact final : public PointForce {
   /// How far the wall must be pushed for the pressure in the filled mould at a height (m).
   template <class T>
   [[nodiscard]] T preload(const T& z) const {
-    return (constants_.unit_weight / constants_.normal_stiffness) * (mould_.fill_height - z);
+    return (constants_.unit_weight / constants_.normal_stiffness) * (setup_.mould.fill_height - z);
   }
 
-  Mould mould_;
+  SlumpSetup setup_;
   double radius_;
   double half_size_;
   Constants constants_;

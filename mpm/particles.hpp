@@ -37,7 +37,8 @@ struct Particles {
   std::array<PointArray, 4> resistance;  ///< stress beside the law's (Pa), as stress; empty where
                                          ///< there is none
   std::array<PointArray, 4> capillary;   ///< the same of surface tension
-  PointArray structure;  ///< xi (-), 1 after long rest; empty where strength is the void ratio's alone
+  PointArray log_strength;  ///< ln of a factor on p_B that stays with the point; empty where there is none
+  PointArray structure;     ///< xi (-), 1 after long rest; empty where strength is the void ratio's alone
 
   /// Number of entries of each array for a body of n points.
   [[nodiscard]] static std::size_t padded(std::size_t n, std::size_t lanes) {
@@ -61,6 +62,7 @@ struct Particles {
     for (auto* tensor : {&omega, &resistance, &capillary}) {
       for (auto& a : *tensor) f(a);
     }
+    f(log_strength);
     f(structure);
   }
 

@@ -16,7 +16,7 @@ namespace isotach::mpm {
 template <class Setup, class Visitor>
 requires std::is_same_v<std::remove_const_t<Setup>, SlumpSetup>
 void visit_fields(Setup& setup, Visitor&& visit) {
-  auto& [mould, mud, base, numerics, times, effects] = setup;
+  auto& [mould, mud, base, numerics, times, effects, wander] = setup;
   {
     auto& [diameter, fill_height, lift_speed, wall, lift_delay, lift_table] = mould;
     auto& [adhesion, friction] = wall;
@@ -85,6 +85,14 @@ void visit_fields(Setup& setup, Visitor&& visit) {
     visit("draining_rate_per_s", draining_rate);
     visit("void_ratio_gradient", gradient);
     visit("surface_tension_N_per_m", surface_tension);
+  }
+  {
+    auto& [slot, at, change] = wander;
+    int number = static_cast<int>(slot);
+    visit("wander_slot", number);
+    if constexpr (!std::is_const_v<Setup>) slot = static_cast<WanderSlot>(number);
+    visit("wander_at", at);
+    visit("wander_change", change);
   }
 }
 

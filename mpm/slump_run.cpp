@@ -67,6 +67,12 @@ Layering layering_of(const SlumpSetup& setup, const InitialState& initial) {
           setup.mud.specific_gravity};
 }
 
+/// What ln p_B wanders by before anything moves, at a height over the fill's.
+double strength_at_start(const Wander& wander, double height) {
+  if (!wander.changes_strength()) return 0.0;
+  return wander.slot == WanderSlot::strength_in_height ? wander(height) : wander.change.front();
+}
+
 /// Points of the filled mould, at rest, undrained.
 Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const VhpMaterial& mud,
                      double cell_size, double width, double height) {
@@ -88,7 +94,8 @@ Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const
   for (std::size_t row = 0; row < rows; ++row) {
     const double void_ratio = layering.void_ratio(heights[row]);
     const double density = layering.density(heights[row]);
-    const double pressure = (1.0 + setup.effects.thixotropy.gain) *
+    const double change = strength_at_start(setup.wander, heights[row] / setup.mould.fill_height);
+    const double pressure = (1.0 + setup.effects.thixotropy.gain) * std::exp(change) *
                             mud.law().preconsolidation_pressure(void_ratio) /
                             setup.mud.overconsolidation_ratio;
     for (std::size_t column = 0; column < columns; ++column) {
@@ -101,6 +108,7 @@ Particles fill_mould(const SlumpSetup& setup, const InitialState& initial, const
       q.reference_pressure.push_back(mud.reference_pressure(total[row] - pressure, void_ratio));
       q.void_ratio.push_back(void_ratio);
       for (std::size_t k = 0; k < 3; ++k) q.stress[k].push_back(-pressure);
+      if (setup.wander.slot == WanderSlot::strength_in_height) q.log_strength.push_back(change);
     }
   }
   if (mud.law().parameters().rotates()) {
@@ -129,8 +137,9 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
                                        kLeastPressureShare * initial_.mean_effective_pressure,
                                        setup.numerics.water_bulk_modulus};
   std::unique_ptr<const Material> material;
-  if (setup.effects.change_stress()) {
-    auto mud = std::make_unique<MudWithEffects>(parameters, settings, setup.effects, initial_.void_ratio);
+  if (setup.effects.change_stress() || setup.wander.changes_strength()) {
+    auto mud = std::make_unique<MudWithEffects>(parameters, settings, setup.effects, initial_.void_ratio,
+                                                setup.wander);
     mud_ = &mud->vhp();
     material = std::move(mud);
   } else {
@@ -150,11 +159,11 @@ SlumpRun::SlumpRun(const model::Parameters<double>& parameters, const SlumpSetup
   engine_.add(std::move(body));
   const MouldContact::Constants wall{width, kWallStiffness * bulk / h, kWallDamping * impedance,
                                      kWallFirmDepth * h, initial_.density * kGravity};
-  engine_.add(std::make_unique<MouldContact>(setup.mould, wall));
+  engine_.add(std::make_unique<MouldContact>(setup, wall));
   if (setup.effects.surface_tension > 0.0) {
     engine_.add(std::make_unique<SurfaceTension>(setup.effects.surface_tension, engine_.grid()));
   }
-  engine_.set_base(setup.base.friction);
+  engine_.set_base(setup.base_at(0.0));
   if (setup.base.slab) {
     const SlabLoad fill{fill_pressure(parameters, setup), 0.5 * setup.mould.diameter};
     engine_.rest_on(slab_engine(*setup.base.slab, h, fill, engine_.settings()));
@@ -178,6 +187,7 @@ SlumpFailure::Kind kind_of(EngineFailure::Kind kind) {
 }  // namespace
 
 std::optional<SlumpFailure> SlumpRun::step(double until) {
+  if (setup_.wander.slot == WanderSlot::base_in_time) engine_.set_base(setup_.base_at(time()));
   auto failure = engine_.step(until);
   if (!failure) return std::nullopt;
   return SlumpFailure{kind_of(failure->kind), failure->time, failure->r, failure->z,

@@ -37,4 +37,16 @@ double Mould::rim_velocity(double t) const {
   return speed_of(lift_table, stretch_end(lift_table, moved));
 }
 
+Wall SlumpSetup::wall_at(double t) const {
+  Wall wall = mould.wall;
+  wall.adhesion = std::max(0.0, wall.adhesion + wander.in_time(WanderSlot::wall_in_time, t));
+  return wall;
+}
+
+BaseFriction SlumpSetup::base_at(double t) const {
+  BaseFriction friction = base.friction;
+  friction.slip_length = std::max(0.0, friction.slip_length + wander.in_time(WanderSlot::base_in_time, t));
+  return friction;
+}
+
 }  // namespace isotach::mpm

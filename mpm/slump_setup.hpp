@@ -11,6 +11,7 @@
 #include "mpm/base_friction.hpp"
 #include "mpm/elastic_slab.hpp"
 #include "mpm/mud_effects.hpp"
+#include "mpm/wander.hpp"
 
 namespace isotach::mpm {
 
@@ -95,6 +96,11 @@ struct SlumpSetup {
   Numerics numerics;
   std::vector<double> times;  ///< output times (s), increasing, > 0; the run ends at the last
   MudEffects effects = {};    ///< of the mud; those of mould and base are theirs
+  Wander wander = {};
+
+  /// Of the mould's wall, and of the base, at t (s).
+  [[nodiscard]] Wall wall_at(double t) const;
+  [[nodiscard]] BaseFriction base_at(double t) const;
 };
 
 }  // namespace isotach::mpm

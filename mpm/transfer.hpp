@@ -75,13 +75,18 @@ template <Symmetry S>
 PullResult pull_from_nodes(Particles& particles, std::size_t begin, std::size_t end, const Grid& grid,
                            const PullSettings& settings, RowSums<double>* rates);
 
+struct TimeStep {
+  double start;  ///< s
+  double dt;     ///< s
+};
+
 /// Stress and volume advance under the averaged strain rate (`mean_rate` at corners, or that of the point
 /// where it is null), the points move, and their volume and pressure are added to `pressures`, where there is
 /// one.
 template <Symmetry S>
-void update_points(Particles& particles, std::size_t begin, std::size_t end, const Grid& grid, double dt,
-                   const double* mean_rate, const Material& material, RowSums<CornerSum>* pressures,
-                   MaterialCount& count);
+void update_points(Particles& particles, std::size_t begin, std::size_t end, const Grid& grid,
+                   const TimeStep& step, const double* mean_rate, const Material& material,
+                   RowSums<CornerSum>* pressures, MaterialCount& count);
 
 /// Adds volume and total pressure of points as they are to `pressures`.
 void push_pressure(const Particles& particles, std::size_t begin, std::size_t end, const Grid& grid,

@@ -118,11 +118,12 @@ void strain_rates(const Particles& q, std::size_t start, std::size_t count, cons
 }  // namespace
 
 template <Symmetry S>
-void update_points(Particles& q, std::size_t begin, std::size_t end, const Grid& grid, double dt,
+void update_points(Particles& q, std::size_t begin, std::size_t end, const Grid& grid, const TimeStep& step,
                    const double* mean_rate, const Material& material, RowSums<CornerSum>* pressures,
                    MaterialCount& count_met) {
   MaterialChunk chunk;
-  chunk.dt = dt;
+  chunk.time = step.start;
+  chunk.dt = step.dt;
   for (std::size_t first = begin; first < end; first += kChunk) {
     chunk.begin = first;
     chunk.count = std::min(kChunk, end - first);
@@ -135,8 +136,8 @@ void update_points(Particles& q, std::size_t begin, std::size_t end, const Grid&
       const std::size_t count = std::min(kBlock, last - start);
       for (std::size_t p = 0; p < padded_to_octets(count); p += kOctet) {
         const std::size_t i = start + p;
-        store_octet(&q.r[i], load_octet(&q.r[i]) + dt * load_octet(&q.grid_velocity_r[i]));
-        store_octet(&q.z[i], load_octet(&q.z[i]) + dt * load_octet(&q.grid_velocity_z[i]));
+        store_octet(&q.r[i], load_octet(&q.r[i]) + step.dt * load_octet(&q.grid_velocity_r[i]));
+        store_octet(&q.z[i], load_octet(&q.z[i]) + step.dt * load_octet(&q.grid_velocity_z[i]));
       }
       if (pressures != nullptr) {
         scatter_pressure(q, start, count, grid, &chunk.total_pressure[start - first], *pressures);
@@ -163,11 +164,11 @@ double at_point(const Grid& grid, const double* mean, double r, double z) {
   return w.w00[0] * v[0] + w.w10[0] * v[1] + w.w01[0] * v[grid.stride()] + w.w11[0] * v[grid.stride() + 1];
 }
 
-template void update_points<Symmetry::axisymmetric>(Particles&, std::size_t, std::size_t, const Grid&, double,
-                                                    const double*, const Material&, RowSums<CornerSum>*,
-                                                    MaterialCount&);
-template void update_points<Symmetry::plane>(Particles&, std::size_t, std::size_t, const Grid&, double,
-                                             const double*, const Material&, RowSums<CornerSum>*,
-                                             MaterialCount&);
+template void update_points<Symmetry::axisymmetric>(Particles&, std::size_t, std::size_t, const Grid&,
+                                                    const TimeStep&, const double*, const Material&,
+                                                    RowSums<CornerSum>*, MaterialCount&);
+template void update_points<Symmetry::plane>(Particles&, std::size_t, std::size_t, const Grid&,
+                                             const TimeStep&, const double*, const Material&,
+                                             RowSums<CornerSum>*, MaterialCount&);
 
 }  // namespace isotach::mpm

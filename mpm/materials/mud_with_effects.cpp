@@ -1,6 +1,7 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
 #include "mpm/materials/mud_with_effects.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,9 +9,10 @@ namespace isotach::mpm {
 
 MudWithEffects::MudWithEffects(const model::Parameters<double>& parameters,
                                const VhpMaterial::Settings& settings, const MudEffects& effects,
-                               double void_ratio)
+                               double void_ratio, const Wander& wander)
     : vhp_(parameters, settings),
       effects_(effects),
+      wander_(wander),
       element_{kElasticShare * settings.water_bulk_modulus * (1.0 + void_ratio) / void_ratio,
                effects.resistance.yield_stress, effects.resistance.consistency,
                effects.resistance.flow_index} {}
@@ -28,7 +30,21 @@ void MudWithEffects::advance_structure(Particles& q, const MaterialChunk& chunk,
     xi = steady + (before - steady) * std::exp(-rate * chunk.dt);
     log_strength[p] = std::log1p(thixotropy.gain * 0.5 * (before + xi));
   }
-  for (std::size_t p = chunk.count; p < kChunk && p % kBlock != 0; ++p) log_strength[p] = 0.0;
+}
+
+void MudWithEffects::add_wander(const Particles& q, const MaterialChunk& chunk, double* log_strength) const {
+  if (wander_.slot == WanderSlot::strength_in_rate) {
+    for (std::size_t p = 0; p < chunk.count; ++p) {
+      double squares = 0.0;
+      for (const auto& component : chunk.strain_rate) squares += component[p] * component[p];
+      log_strength[p] += wander_(0.5 * std::log(squares));
+    }
+  } else if (wander_.slot == WanderSlot::strength_in_height) {
+    for (std::size_t p = 0; p < chunk.count; ++p) log_strength[p] += q.log_strength[chunk.begin + p];
+  } else {
+    const double change = wander_.in_time(WanderSlot::strength_in_time, chunk.time);
+    for (std::size_t p = 0; p < chunk.count; ++p) log_strength[p] += change;
+  }
 }
 
 void MudWithEffects::advance_resistance(Particles& q, const MaterialChunk& chunk) const {
@@ -59,8 +75,10 @@ void MudWithEffects::drain(Particles& q, MaterialChunk& chunk) const {
 
 void MudWithEffects::update(Particles& q, MaterialChunk& chunk, MaterialCount& count) const {
   alignas(64) std::array<double, kChunk> log_strength;
-  if (effects_.thixotropy.acts()) {
-    advance_structure(q, chunk, log_strength.data());
+  if (effects_.thixotropy.acts() || wander_.changes_strength()) {
+    std::fill_n(log_strength.data(), Particles::padded(chunk.count, kBlock), 0.0);
+    if (effects_.thixotropy.acts()) advance_structure(q, chunk, log_strength.data());
+    if (wander_.changes_strength()) add_wander(q, chunk, log_strength.data());
     chunk.log_strength = log_strength.data();
   }
   vhp_.update(q, chunk, count);

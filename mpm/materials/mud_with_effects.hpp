@@ -5,6 +5,7 @@
 #include "mpm/materials/flow_element.hpp"
 #include "mpm/materials/vhp.hpp"
 #include "mpm/mud_effects.hpp"
+#include "mpm/wander.hpp"
 
 namespace isotach::mpm {
 
@@ -17,10 +18,12 @@ namespace isotach::mpm {
 /// - draining lets the pore pressure fade, u exp(-b dt) in a step, through reference_pressure; as the total
 ///   pressure has to balance the weight, the skeleton then is pressed together. The mass of the water that
 ///   leaves stays with the points.
+/// - a strength that wanders changes ln p_B: with time, with a point's rate in the step, or by what points
+///   carry in Particles::log_strength.
 class MudWithEffects final : public Material {
  public:
   MudWithEffects(const model::Parameters<double>& parameters, const VhpMaterial::Settings& settings,
-                 const MudEffects& effects, double void_ratio);
+                 const MudEffects& effects, double void_ratio, const Wander& wander = {});
 
   void update(Particles& particles, MaterialChunk& chunk, MaterialCount& count) const override;
   void total_pressure(const Particles& particles, std::size_t begin, std::size_t count,
@@ -34,11 +37,14 @@ class MudWithEffects final : public Material {
  private:
   /// ln(1 + s xi) of the chunk's points, xi advanced by the step.
   void advance_structure(Particles& particles, const MaterialChunk& chunk, double* log_strength) const;
+  /// Adds what the strength wanders by.
+  void add_wander(const Particles& particles, const MaterialChunk& chunk, double* log_strength) const;
   void advance_resistance(Particles& particles, const MaterialChunk& chunk) const;
   void drain(Particles& particles, MaterialChunk& chunk) const;
 
   VhpMaterial vhp_;
   MudEffects effects_;
+  Wander wander_;
   FlowElement element_;
 };
 

@@ -27,6 +27,7 @@ mpm::SlumpSetup rich_setup() {
   setup.base.slab = mpm::ElasticSlab{0.006, 0.21, 1.1e6, 0.31};
   setup.numerics = {0.004 / 3.0, 9, 310e3, 0.7, 1e-3, 0.3, 2, 10.0};
   setup.times = {0.1, 1.0 / 3.0, 30.0};
+  setup.wander = {mpm::WanderSlot::strength_in_rate, {0.1, 1.0 / 3.0}, {1.0 / 7.0, -0.2}};
   return setup;
 }
 

@@ -20,8 +20,9 @@ constexpr double kStep = 1e-4;             // s
 constexpr double kArea = kRadius * kSize;  // of the wall a point covers, per radian
 
 MouldContact contact(const Wall& wall, double unit_weight = 0.0) {
-  return MouldContact({2.0 * kRadius, kFill, kLift, wall, 0.0, {}},
-                      {kSize, kStiffness, kDamping, 0.125 * kSize, unit_weight});
+  SlumpSetup setup;
+  setup.mould = {2.0 * kRadius, kFill, kLift, wall, 0.0, {}};
+  return MouldContact(setup, {kSize, kStiffness, kDamping, 0.125 * kSize, unit_weight});
 }
 
 /// A point, resting unless said otherwise, with its outer edge `depth` beyond the wall.
@@ -36,8 +37,8 @@ struct Point {
 
 WallForce force(const Point& p, const Wall& wall = Wall::smooth(), double unit_weight = 0.0) {
   return contact(wall, unit_weight)
-      .force({kRadius - 0.5 * kSize + p.depth, p.z, p.velocity_r, p.velocity_z, kMass, p.pressure}, p.rim,
-             kLift, kStep);
+      .force({kRadius - 0.5 * kSize + p.depth, p.z, p.velocity_r, p.velocity_z, kMass, p.pressure}, wall,
+             p.rim, kLift, kStep);
 }
 
 TEST(Mould, RimRisesAtTheLiftSpeedOnceTheDelayIsOver) {

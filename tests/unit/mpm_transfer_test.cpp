@@ -306,7 +306,7 @@ void expect_update(bool averaged) {
   RowSums<CornerSum> pressures(g.stride(), kRows + 2);
   MaterialCount count;
   constexpr double kShort = 1e-6;  // so that no point leaves
-  update_points<S>(q, 0, q.count, g, kShort, averaged ? mean.data() : nullptr, material,
+  update_points<S>(q, 0, q.count, g, {0.0, kShort}, averaged ? mean.data() : nullptr, material,
                    averaged ? &pressures : nullptr, count);
   EXPECT_EQ(count.substepped, 203);
   std::vector<CornerSum> expected(g.stride() * (kRows + 2), CornerSum{0.0, 0.0});
