@@ -18,7 +18,7 @@ SlumpExperiments make_experiments(const datasets::Study& study, const effects::V
   SlumpExperiments all;
   for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
     all.push_back(std::make_shared<experiments::SlumpExperiment>(
-        study.slump_tests[i], experiments::SlumpModel{simulate, error.error, effects, free,
+        study.slump_tests[i], experiments::SlumpModel{simulate, error.of(i), effects, free,
                                                       study.fit.slump_mud, corrections.of(i)}));
   }
   return all;

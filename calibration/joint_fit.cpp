@@ -83,7 +83,7 @@ tl::expected<JointFit, FitFailure> fit_jointly(const datasets::Study& study, con
     slumps.push_back(std::make_shared<experiments::SlumpExperiment>(
         std::move(found),
         experiments::SlumpModel{
-            simulate, slump.simulation_error.error, slump.effects, {}, {}, slump.corrections.of(i)}));
+            simulate, slump.simulation_error.of(i), slump.effects, {}, {}, slump.corrections.of(i)}));
   }
   const CoordinateSettings settings{study.fit.bounds, study.fit.priors, study.fit.oedometer_effects};
   Problem simulated({slumps.begin(), slumps.end()},

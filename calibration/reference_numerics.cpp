@@ -26,26 +26,29 @@ double reference_cost(const datasets::Study& study) {
 tl::expected<Corrections, FitFailure> measure_corrections(
     const datasets::Study& study,
     const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
-    const model::Parameters<double>& parameters, const std::vector<std::vector<double>>& locals,
-    int threads) {
+    const model::Parameters<double>& parameters, const std::vector<std::vector<double>>& locals, int threads,
+    Corrected which) {
   Corrections corrections;
   if (!has_reference(study)) return corrections;
   using Run = tl::expected<mpm::SlumpResult, experiments::PredictionFailure>;
   std::vector<std::optional<Run>> runs(2 * tests.size());  // of the reference first: they take longer
+  const auto wanted = [&](std::size_t i) { return which == Corrected::all_tests || !tests[i]->held_out(); };
   parallel_for(runs.size(), threads, [&](std::size_t k) {
     const std::size_t i = k % tests.size();
+    if (!wanted(i)) return;
     runs[k] = k < tests.size() ? tests[i]->simulate_at_best(parameters, locals[i])
                                : tests[i]->simulate(parameters, locals[i]);
   });
   double squares[2] = {0.0, 0.0};
   double counts[2] = {0.0, 0.0};
   for (std::size_t i = 0; i < tests.size(); ++i) {
+    corrections.tests.emplace_back();
+    if (!wanted(i)) continue;
     const Run& best = *runs[i];
     const Run& quick = *runs[tests.size() + i];
     for (const Run* run : {&best, &quick}) {
       if (!*run && run->error().interrupted) return tl::unexpected(FitFailure{"interrupted", true});
     }
-    corrections.tests.emplace_back();
     if (!best || !quick) {
       ++corrections.failed;
       continue;

@@ -16,8 +16,8 @@ namespace isotach::calibration {
 /// Quick simulations with that added meet the reference there, and near there as far as the change does not
 /// depend on the parameters (additive correction of multi-fidelity optimisation, Alexandrov et al. 2001).
 struct Corrections {
-  /// Of each of the study's slump tests, held-out ones included: at its measured points (m). Empty for a test
-  /// that needs none, or that could not be simulated in both ways; empty altogether without a reference.
+  /// Of each of the study's slump tests: at its measured points (m). Empty for a test that needs none, that
+  /// was not asked for or that could not be simulated in both ways; empty altogether without a reference.
   std::vector<experiments::Values> tests;
   double outline = 0.0;    ///< root mean square (m) once the rim has left the mud; 0 without a reference
   double lifting = 0.0;    ///< and before
@@ -36,11 +36,15 @@ struct Corrections {
 /// they take; 0 without a reference.
 [[nodiscard]] double reference_cost(const datasets::Study& study);
 
-/// Simulates `tests`, all of a study, both ways at parameters and each test's `locals`. Nothing is simulated
-/// where the study has no reference. A test that fails is left as it is. The error is an interruption.
+enum class Corrected { all_tests, fitted_tests };
+
+/// Simulates those of `tests`, which are all of a study, both ways at parameters and each test's `locals`.
+/// Nothing is simulated where the study has no reference. A test that fails is left as it is. The error is an
+/// interruption.
 [[nodiscard]] tl::expected<Corrections, FitFailure> measure_corrections(
     const datasets::Study& study,
     const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
-    const model::Parameters<double>& parameters, const std::vector<std::vector<double>>& locals, int threads);
+    const model::Parameters<double>& parameters, const std::vector<std::vector<double>>& locals, int threads,
+    Corrected which = Corrected::all_tests);
 
 }  // namespace isotach::calibration

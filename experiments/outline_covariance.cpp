@@ -11,7 +11,7 @@ constexpr double kFirstTime = 0.1;  // s, below which all times count as one
 
 double shared(const SharedError& error, const OutlineStation& a, bool a_gone, const OutlineStation& b,
               bool b_gone) {
-  const double size = (a_gone ? error.outline : error.lifting) * (b_gone ? error.outline : error.lifting);
+  const double size = error.size_of(a.outline, a_gone) * error.size_of(b.outline, b_gone);
   if (size == 0.0) return 0.0;
   return size * std::exp(-std::abs(a.place - b.place) / error.along -
                          std::abs(std::log((a.time + kFirstTime) / (b.time + kFirstTime))) / error.in_time);

@@ -17,6 +17,14 @@ struct SharedError {
   double lifting = 0.0;  ///< and before
   double along = 0.2;    ///< in parts of the outline's length, > 0
   double in_time = 1.0;  ///< in ln t, > 0
+  /// Standard deviation of each outline of a test (m), in the place of the first two; empty: those.
+  std::vector<double> sizes = {};
+
+  /// Of an outline; `gone` says whether the rim had left the mud.
+  [[nodiscard]] double size_of(std::size_t of_outline, bool gone) const {
+    if (!sizes.empty()) return sizes[of_outline];
+    return gone ? outline : lifting;
+  }
 };
 
 /// All errors of an outline.
