@@ -10,6 +10,7 @@
 #include "discovery/left_out.hpp"
 #include "discovery/limits.hpp"
 #include "discovery/meets_noise.hpp"
+#include "discovery/oedometer_wandering.hpp"
 
 namespace isotach::discovery {
 

@@ -1,18 +1,14 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-#include "discovery/wandering.hpp"
+#include "discovery/oedometer_wandering.hpp"
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "calibration/distributions.hpp"
 #include "calibration/parallel.hpp"
 #include "discovery/limits.hpp"
 #include "discovery/linear_model.hpp"
-#include "discovery/noise_replicates.hpp"
 
 namespace isotach::discovery {
 
@@ -23,8 +19,6 @@ using experiments::Linearisation;
 using experiments::OedometerExperiment;
 using experiments::Slot;
 using experiments::Values;
-
-constexpr unsigned kWanderSeed = 2;
 
 /// A fitted test of the model.
 struct Fitted {
@@ -45,11 +39,11 @@ std::vector<Fitted> fitted_of(const Candidate& model, const LinearModel& linear)
 
 /// The variable that a slot wanders over, at the start and at the end of each step. Stress is the model's
 /// where it is compared: a function of what was read would bend to the noise of the readings.
-std::vector<double> variable_of(const Fitted& test, Along along) {
+std::vector<double> variable_of(const Fitted& test, const WanderAxis& along) {
   const auto& protocol = test.experiment->protocol();
   double time = protocol.start.time;
   double log_stress = std::log(protocol.start.axial_stress);
-  std::vector<double> all{along == Along::time ? time : log_stress};
+  std::vector<double> all{&along == &kOverTime ? time : log_stress};
   std::size_t next = 0;
   for (std::size_t i = 0; i < protocol.steps.size(); ++i) {
     time += protocol.steps[i].duration;
@@ -60,7 +54,7 @@ std::vector<double> variable_of(const Fitted& test, Along along) {
     } else if (protocol.steps[i].stress_controlled) {
       log_stress = std::log(protocol.steps[i].amount);
     }
-    all.push_back(along == Along::time ? time : log_stress);
+    all.push_back(&along == &kOverTime ? time : log_stress);
   }
   return all;
 }
@@ -96,20 +90,20 @@ Eigen::MatrixXd hats(const std::vector<double>& knots, const std::vector<double>
 
 /// A variable's knots, of each test or of all, and the hats of each test among all columns.
 struct Functions {
-  Along along;
+  const WanderAxis* along;
   std::vector<std::vector<double>> knots;
   std::vector<Eigen::MatrixXd> of_test;
 };
 
-Functions functions_of(const std::vector<Fitted>& tests, Along along) {
-  Functions found{along, {}, {}};
+Functions functions_of(const std::vector<Fitted>& tests, const WanderAxis& along) {
+  Functions found{&along, {}, {}};
   std::vector<std::vector<double>> values;
   std::vector<double> pooled;
   for (const Fitted& test : tests) {
     values.push_back(variable_of(test, along));
     pooled.insert(pooled.end(), values.back().begin(), values.back().end());
   }
-  if (along == Along::stress) {
+  if (&along == &kOverStress) {
     found.knots.push_back(knots_of(pooled));
     for (const auto& one : values) found.of_test.push_back(hats(found.knots.front(), one));
     return found;
@@ -129,29 +123,15 @@ Functions functions_of(const std::vector<Fitted>& tests, Along along) {
   return found;
 }
 
-/// A chi-squared as a standard normal deviate.
-double deviate(double squares, Eigen::Index degrees) {
-  const double spread = 2.0 / (9.0 * static_cast<double>(degrees));
-  return (std::cbrt(squares / static_cast<double>(degrees)) - (1.0 - spread)) / std::sqrt(spread);
-}
-
-constexpr double kNoDeviate = -std::numeric_limits<double>::infinity();
-
-/// A slot on top of a model, before it is known how far it stands out.
-struct Tried {
-  WanderingSlot slot;
-  Eigen::MatrixXd basis;  // orthonormal, of what it can do and the model's parameters cannot
-};
-
 std::vector<WanderCurve> curves_of(const Functions& functions, const std::vector<Fitted>& tests,
                                    const Eigen::VectorXd& change, const Eigen::VectorXd& std_error) {
   std::vector<WanderCurve> curves;
   Eigen::Index next = 0;
   for (std::size_t c = 0; c < functions.knots.size(); ++c) {
     WanderCurve curve;
-    if (functions.along == Along::time) curve.test = tests[c].experiment->name();
+    if (functions.along == &kOverTime) curve.test = tests[c].experiment->name();
     for (const double knot : functions.knots[c]) {
-      curve.at.push_back(functions.along == Along::time ? knot : std::exp(knot));
+      curve.at.push_back(functions.along == &kOverTime ? knot : std::exp(knot));
       curve.change.push_back(change[next]);
       curve.std_error.push_back(std_error[next++]);
     }
@@ -160,9 +140,9 @@ std::vector<WanderCurve> curves_of(const Functions& functions, const std::vector
   return curves;
 }
 
-tl::expected<Tried, FitFailure> try_slot(const Candidate& model, const LinearModel& linear, Slot slot,
-                                         const Functions& functions, const std::vector<Fitted>& tests,
-                                         int threads) {
+tl::expected<WanderTrial, FitFailure> let_wander(const Candidate& model, const LinearModel& linear, Slot slot,
+                                                 const Functions& functions, const std::vector<Fitted>& tests,
+                                                 int threads) {
   using Result = tl::expected<Linearisation, experiments::PredictionFailure>;
   std::vector<Result> results(tests.size());
   calibration::parallel_for(tests.size(), threads, [&](std::size_t i) {
@@ -181,56 +161,15 @@ tl::expected<Tried, FitFailure> try_slot(const Candidate& model, const LinearMod
         fmt::format("derivatives by a {} that wanders are not finite", experiments::info_of(slot).name)});
   }
   for (Eigen::Index k = 0; k < left.cols(); ++k) left.col(k) = linear.parameters().freed(left.col(k));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] >= kWanderShows) ++rank;
-  const Eigen::MatrixXd inverse =
-      svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal() * plausible;
-  Tried tried{{slot, functions.along, static_cast<std::size_t>(rank), 0.0, 1.0, kNoDeviate, {}, {}},
-              svd.matrixU().leftCols(rank)};
-  const Eigen::VectorXd along = -tried.basis.transpose() * linear.residuals();
-  tried.slot.gain = along.squaredNorm();
-  if (rank > 0) {
-    tried.slot.p_value = calibration::chi_squared_survival(tried.slot.gain, static_cast<double>(rank));
-    tried.slot.stands_out = deviate(tried.slot.gain, rank);
-  }
-  const Eigen::VectorXd change = inverse * along;
-  tried.slot.curves = curves_of(functions, tests, change, inverse.rowwise().norm());
-  tried.slot.change = linear.left_of(changes, change);
-  return tried;
-}
-
-/// How far the slot that stands out most does under noise, sorted.
-std::vector<double> most_under_noise(const std::vector<Tried>& slots) {
-  Eigen::Index columns = 0;
-  for (const Tried& one : slots) columns += one.basis.cols();
-  if (columns == 0) return {};
-  Eigen::MatrixXd all(slots.front().basis.rows(), columns);
-  Eigen::Index next = 0;
-  for (const Tried& one : slots) {
-    all.middleCols(next, one.basis.cols()) = one.basis;
-    next += one.basis.cols();
-  }
-  std::vector<double> most;
-  for_noise_along(all, kWanderSeed, [&](const Eigen::VectorXd& z) {
-    most.push_back(kNoDeviate);
-    next = 0;
-    for (const Tried& one : slots) {
-      const Eigen::Index rank = one.basis.cols();
-      if (rank == 0) continue;
-      most.back() = std::max(most.back(), deviate(z.segment(next, rank).squaredNorm(), rank));
-      next += rank;
-    }
-  });
-  std::sort(most.begin(), most.end());
-  return most;
+  WanderTrial trial =
+      try_slot({experiments::info_of(slot).name, functions.along, info_of(slot).logarithmic, "1e-3", 1e-3},
+               left, plausible, linear.residuals());
+  trial.slot.curves = curves_of(functions, tests, trial.change, trial.std_error);
+  trial.slot.change = linear.left_of(changes, trial.change);
+  return trial;
 }
 
 }  // namespace
-
-std::string_view name_of(Along along) {
-  return along == Along::time ? "time" : "stress";
-}
 
 tl::expected<Wandering, FitFailure> let_wander(const datasets::Study& study, const Candidate& model,
                                                const std::vector<calibration::ExperimentWeights>& weights,
@@ -238,23 +177,16 @@ tl::expected<Wandering, FitFailure> let_wander(const datasets::Study& study, con
   const auto linear = LinearModel::of(study, model, weights, model.fit.result.main.coordinates, threads);
   if (!linear) return tl::unexpected(linear.error());
   const std::vector<Fitted> tests = fitted_of(model, *linear);
-  std::vector<Tried> tried;
-  for (const Along along : {Along::time, Along::stress}) {
-    const Functions functions = functions_of(tests, along);
+  std::vector<WanderTrial> trials;
+  for (const WanderAxis* along : {&kOverTime, &kOverStress}) {
+    const Functions functions = functions_of(tests, *along);
     for (const Slot slot : experiments::kSlots) {
-      auto one = try_slot(model, *linear, slot, functions, tests, threads);
+      auto one = let_wander(model, *linear, slot, functions, tests, threads);
       if (!one) return tl::unexpected(one.error());
-      tried.push_back(std::move(*one));
+      trials.push_back(std::move(*one));
     }
   }
-  const std::vector<double> null = most_under_noise(tried);
-  Wandering found;
-  for (Tried& one : tried) found.slots.push_back(std::move(one.slot));
-  std::stable_sort(found.slots.begin(), found.slots.end(),
-                   [](const auto& a, const auto& b) { return a.stands_out > b.stands_out; });
-  const auto above = null.end() - std::lower_bound(null.begin(), null.end(), found.slots.front().stands_out);
-  found.p_value = replicated_p(above, null.size());
-  return found;
+  return ranked(std::move(trials));
 }
 
 }  // namespace isotach::discovery

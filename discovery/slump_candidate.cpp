@@ -22,7 +22,7 @@ SlumpCandidate slump_candidate(const SlumpBasis& basis, const std::vector<const 
   }
   for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
     candidate.tests.push_back(std::make_shared<experiments::SlumpExperiment>(
-        study.slump_tests[i], experiments::SlumpModel{basis.simulate, basis.error.error, candidate.effects,
+        study.slump_tests[i], experiments::SlumpModel{basis.simulate, basis.error.of(i), candidate.effects,
                                                       free, study.fit.slump_mud, basis.corrections.of(i)}));
   }
   const calibration::Experiments all(candidate.tests.begin(), candidate.tests.end());

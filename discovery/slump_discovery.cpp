@@ -16,6 +16,7 @@
 #include "discovery/slump_disagreement.hpp"
 #include "discovery/slump_next.hpp"
 #include "discovery/slump_verdict.hpp"
+#include "discovery/slump_wandering.hpp"
 
 namespace isotach::discovery {
 
@@ -59,6 +60,10 @@ class SlumpSearch {
       weigh(found_, null_);
       if (auto failure = try_pairs()) return tl::unexpected(*failure);
       weigh(found_, null_);
+      auto wandering = let_wander(basis_, found_.base.candidate, common_,
+                                  [this](double done) { tell(0.8 + 0.1 * done, "one slot at a time"); });
+      if (!wandering) return tl::unexpected(wandering.error());
+      found_.wandering = std::move(*wandering);
     }
     if (auto failure = compare()) return tl::unexpected(*failure);
     decide(found_);
@@ -129,7 +134,7 @@ class SlumpSearch {
     std::vector<std::vector<double>> locals;
     for (const auto& test : candidate.tests) locals.push_back(parametrisation.local_of(*test, x));
     return calibration::measure_corrections(study_, candidate.tests, *parametrisation.at(x), locals,
-                                            basis_.threads);
+                                            basis_.threads, calibration::Corrected::fitted_tests);
   }
 
   /// Corrects a candidate at its answer, where the study has reference numerics, and goes on from there.
@@ -213,6 +218,28 @@ class SlumpSearch {
     return std::nullopt;
   }
 
+  /// What an effect does to residuals of the base, for each typical amplitude: by the difference over one, or
+  /// over more where one hardly shows.
+  tl::expected<Eigen::VectorXd, experiments::PredictionFailure> change_by(
+      const effects::Effect& effect, const Projection& projection) const {
+    const SlumpCandidate& base = found_.base.candidate;
+    const SlumpCandidate with = slump_candidate(basis_, {&effect});
+    auto residuals = residuals_at(with, continued(with, base.at.coordinates, 1.0));
+    if (!residuals) return tl::unexpected(residuals.error());
+    Eigen::VectorXd change = *residuals - base.at.residuals;
+    const double shows = projection.freed(change).norm();
+    const calibration::Coordinate& amplitude =
+        with.problem->parametrisation().coordinates()[base.at.coordinates.size()];
+    const double times = std::min({kSlumpShows / std::max(shows, 1e-3), kSlumpLargest, amplitude.upper});
+    if (times <= 1.0) return change;
+    residuals = residuals_at(with, continued(with, base.at.coordinates, times));
+    if (!residuals) {
+      if (residuals.error().interrupted) return tl::unexpected(residuals.error());
+      return change;
+    }
+    return Eigen::VectorXd((*residuals - base.at.residuals) / times);
+  }
+
   std::optional<FitFailure> score_all() {
     Effects effects;
     for (const effects::Effect* effect : effects::catalogue()) {
@@ -228,15 +255,14 @@ class SlumpSearch {
     for (std::size_t k = 0; k < effects.size(); ++k) {
       tell(0.3 + 0.2 * static_cast<double>(k) / static_cast<double>(effects.size()),
            "what " + std::string(effects[k]->name) + " would do");
-      const SlumpCandidate with = slump_candidate(basis_, {effects[k]});
-      const auto residuals = residuals_at(with, continued(with, base.at.coordinates, 1.0));
-      if (!residuals) {
-        if (residuals.error().interrupted) return interrupted();
+      const auto change = change_by(*effects[k], projection);
+      if (!change) {
+        if (change.error().interrupted) return interrupted();
         found_.not_tried.emplace_back(
-            effects[k], "it could not be simulated at its typical strength: " + residuals.error().message);
+            effects[k], "it could not be simulated at its typical strength: " + change.error().message);
         continue;
       }
-      SlumpSignature found{effects[k], *residuals - base.at.residuals, {}, 0.0};
+      SlumpSignature found{effects[k], *change, {}, 0.0};
       found.signature = signature_of(effects[k], found.change, projection, base.at.residuals);
       const double length = projection.freed(found.change).norm();
       if (length > 0.0) found.amplitude = found.signature.z / length;
@@ -325,23 +351,34 @@ class SlumpSearch {
         found_.not_tried.emplace_back(sorted[k]->effect, "it would have to act the other way round");
         continue;
       }
-      tell(0.5 + 0.3 * static_cast<double>(k) / static_cast<double>(kSlumpRefitted),
+      tell(0.5 + 0.2 * static_cast<double>(k) / static_cast<double>(kSlumpRefitted),
            "fit with " + std::string(sorted[k]->effect->name));
       if (auto failure = try_set({sorted[k]->effect})) return failure;
     }
     return std::nullopt;
   }
 
+  /// Whether noise would hardly let an effect promise as much as `more` does beside a fitted one.
+  [[nodiscard]] bool promises_beside(const SlumpCandidate& fitted, const effects::Effect* more) const {
+    const Signature beside =
+        signature_of(more, signature(more)->change, Projection(fitted.at.jacobian), fitted.at.residuals);
+    return null_.p_value(gain_of(beside)) < kSlumpPromise;
+  }
+
   std::optional<FitFailure> try_pairs() {
-    Effects single;
-    for (const SlumpTrial& trial : found_.trials) {
-      if (single.size() < kSlumpPaired) single.push_back(trial.candidate.added.front());
-    }
-    for (std::size_t a = 0; a < single.size(); ++a) {
-      for (std::size_t b = a + 1; b < single.size(); ++b) {
-        tell(0.8, fmt::format("fit with {} and {}", single[a]->name, single[b]->name));
-        if (auto failure = try_set({single[a], single[b]})) return failure;
+    std::vector<Effects> pairs;
+    const std::size_t count = std::min(kSlumpPaired, found_.trials.size());
+    for (std::size_t a = 0; a < count; ++a) {
+      for (std::size_t b = a + 1; b < count; ++b) {
+        const effects::Effect* more = found_.trials[b].candidate.added.front();
+        const SlumpCandidate& fitted = found_.trials[a].candidate;
+        if (promises_beside(fitted, more)) pairs.push_back({fitted.added.front(), more});
       }
+    }
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      tell(0.7 + 0.1 * static_cast<double>(k) / static_cast<double>(pairs.size()),
+           fmt::format("fit with {} and {}", pairs[k][0]->name, pairs[k][1]->name));
+      if (auto failure = try_set(pairs[k])) return failure;
     }
     return std::nullopt;
   }

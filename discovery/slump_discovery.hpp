@@ -65,6 +65,7 @@ struct SlumpDiscovery {
   double best_wrong = std::numeric_limits<double>::quiet_NaN();
   double smoother = 0.0;
   std::optional<NextExperiment> next;
+  std::optional<Wandering> wandering;  ///< slots let wander on the base, where effects were tried
   long simulations = 0;
   std::vector<std::string> warnings;
 

@@ -136,13 +136,27 @@ Values SlumpExperiment::decorrelated(const Values& distances) const {
   return means;
 }
 
+Values SlumpExperiment::seen(const mpm::SlumpResult& result) const {
+  Values corrected = distances(result);
+  for (std::size_t i = 0; i < model_.correction.size(); ++i) corrected[i] += model_.correction[i];
+  return decorrelated(corrected);
+}
+
 tl::expected<Values, PredictionFailure> SlumpExperiment::predict(const model::Parameters<double>& parameters,
                                                                  std::span<const double> local) const {
   const auto result = simulate(parameters, local);
   if (!result) return tl::unexpected(result.error());
-  Values corrected = distances(*result);
-  for (std::size_t i = 0; i < model_.correction.size(); ++i) corrected[i] += model_.correction[i];
-  return decorrelated(corrected);
+  return seen(*result);
+}
+
+tl::expected<Values, PredictionFailure> SlumpExperiment::predict_wandering(
+    const mpm::Wander& wander, const model::Parameters<double>& parameters,
+    std::span<const double> local) const {
+  mpm::SlumpSetup setup = test_.setup;
+  setup.wander = wander;
+  const auto result = simulate(std::move(setup), parameters, local);
+  if (!result) return tl::unexpected(result.error());
+  return seen(*result);
 }
 
 }  // namespace isotach::experiments

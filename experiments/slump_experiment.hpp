@@ -69,6 +69,10 @@ class SlumpExperiment final : public Experiment {
   [[nodiscard]] Values in_noise(const Values& distances) const;
   /// By how much a simulation's distances are corrected; empty where they are not.
   [[nodiscard]] const Values& correction() const { return model_.correction; }
+  /// What predict() gives where something wanders.
+  [[nodiscard]] tl::expected<Values, PredictionFailure> predict_wandering(
+      const mpm::Wander& wander, const model::Parameters<double>& parameters,
+      std::span<const double> local) const;
   /// Distances as a fit sees them.
   [[nodiscard]] Values decorrelated(const Values& distances) const;
   /// For each point, whether the rim had left the mud by then.
@@ -81,6 +85,9 @@ class SlumpExperiment final : public Experiment {
   [[nodiscard]] tl::expected<mpm::SlumpResult, PredictionFailure> simulate(
       mpm::SlumpSetup setup, const model::Parameters<double>& parameters,
       std::span<const double> local) const;
+
+  /// Distances from a simulation's outlines, corrected, as a fit sees them.
+  [[nodiscard]] Values seen(const mpm::SlumpResult& result) const;
 
   datasets::SlumpTest test_;
   SlumpModel model_;

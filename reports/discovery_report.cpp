@@ -246,7 +246,12 @@ void add_evidence(Page& page, const Discovery& found) {
   page.section("Scores");
   page.table(score_table(found));
   page.table(likeness_table(found));
-  add_wandering(page, found.wandering);
+  add_wandering(
+      page, found.wandering,
+      "One constant of the law, or one reading, at a time is let wander as a polygon over the time of each "
+      "test or over stress, beside the base's parameters, to first order. A gap that closes when the stress "
+      "read wanders over stress points at the load cell; one that closes with D_r over time, at the soil. "
+      "A constant part is the base's own, where it is free.");
   page.section("Where");
   page.table(disagreement_table(found, found.disagreement.size()));
   for (std::size_t i = 0; i < found.base.candidate.fit.experiments.size(); ++i) {

@@ -11,6 +11,7 @@
 #include "reports/fit_sections.hpp"
 #include "reports/json_number.hpp"
 #include "reports/number.hpp"
+#include "reports/wandering_section.hpp"
 
 namespace isotach::reports {
 namespace {
@@ -83,6 +84,9 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
                    "Slumps: the model does not suffice, and no effect of the catalogue, nor two of them, can "
                    "be named for it: see where it fails.");
       if (!found.trials.empty()) page.verdict(Tone::plain, gap_words(found));
+      if (found.wandering && !found.wandering->slots.empty()) {
+        page.verdict(Tone::plain, wander_words(*found.wandering));
+      }
       return;
   }
 }
@@ -252,6 +256,15 @@ void add_slump_discovery(Page& page, const SlumpDiscovery& found) {
   add_conditions(page, found.conditions);
   page.table(signature_table(found));
   page.table(likeness_table(found));
+  if (found.wandering) {
+    add_wandering(
+        page, *found.wandering,
+        "The adhesion of the wall, the slip length of the base or the strength of the mud is let wander as a "
+        "polygon over the time of each test, strength over the height in the fill or over strain rate too, "
+        "beside the base's parameters, to first order. A gap that closes when the wall wanders is the mould's; "
+        "one that closes when strength does, the material's. Negative adhesions and lengths say that the "
+        "other way round would be wanted.");
+  }
   add_not_tried(page, found.not_tried);
 }
 
@@ -289,6 +302,7 @@ ordered_json discovery_json(const SlumpDiscovery& found) {
                               {"score", json_number(one.signature.z)},
                               {"absorbed", json_number(one.signature.absorbed)}});
   }
+  if (found.wandering) json["wandering"] = wandering_json(*found.wandering);
   json["next_test"] = next_json(found.next);
   json["simulations"] = found.simulations;
   json["warnings"] = found.warnings;

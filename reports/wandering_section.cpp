@@ -13,31 +13,18 @@
 namespace isotach::reports {
 namespace {
 
-using discovery::Along;
 using discovery::WanderCurve;
 using discovery::Wandering;
 using discovery::WanderingSlot;
 
 constexpr std::size_t kCurvesShown = 4;
-constexpr double kKilopascal = 1e3;
-constexpr double kHour = 3600.0;
-
-double shown(Along along, double at) {
-  return along == Along::time ? at / kHour : at / kKilopascal;
-}
-
-/// A change as readers say it: per cent of a quantity, or 1e-3 of strain.
+/// A change as readers say it: per cent of a quantity, or in its unit.
 double shown_change(const WanderingSlot& slot, double change) {
-  return (experiments::info_of(slot.slot).logarithmic ? 100.0 : 1e3) * change;
-}
-
-std::string title_of(const WanderingSlot& slot) {
-  return fmt::format("{} over {}", experiments::info_of(slot.slot).name,
-                     slot.along == Along::time ? "the time of each test" : "stress");
+  return slot.slot.logarithmic ? 100.0 * change : change / slot.slot.unit_size;
 }
 
 std::string unit_of(const WanderingSlot& slot) {
-  return experiments::info_of(slot.slot).logarithmic ? "100 x change of ln" : "change (1e-3)";
+  return slot.slot.logarithmic ? "100 x change of ln" : fmt::format("change ({})", slot.slot.unit);
 }
 
 Figure curve_figure(const WanderingSlot& slot) {
@@ -45,15 +32,15 @@ Figure curve_figure(const WanderingSlot& slot) {
   figure.caption = fmt::format(
       "{}: what it would have to do ({} directions). Bars: one "
       "standard error of noise.",
-      title_of(slot), slot.freedom);
-  figure.x = {.label = slot.along == Along::time ? "time (h)" : "axial stress (kPa)",
-              .logarithmic = slot.along == Along::stress};
+      slot.slot.title(), slot.freedom);
+  const discovery::WanderAxis& along = *slot.slot.along;
+  figure.x = {.label = std::string(along.label), .logarithmic = along.logarithmic};
   figure.y = {.label = unit_of(slot)};
   figure.height_to_width = 0.5;
   for (const WanderCurve& curve : slot.curves) {
     Series series{.label = curve.test, .style = SeriesStyle::line_points, .in_legend = !curve.test.empty()};
     for (std::size_t k = 0; k < curve.at.size(); ++k) {
-      series.x.push_back(shown(slot.along, curve.at[k]));
+      series.x.push_back(curve.at[k] / along.unit);
       series.y.push_back(shown_change(slot, curve.change[k]));
       series.y_error.push_back(shown_change(slot, curve.std_error[k]));
     }
@@ -76,27 +63,22 @@ std::string wander_words(const Wandering& wandering) {
     }
   }
   const std::string range =
-      experiments::info_of(best.slot).logarithmic
-          ? fmt::format("by factors from {:.2g} to {:.2g}", std::exp(least), std::exp(most))
-          : fmt::format("by {:+.2g} to {:+.2g}", least, most);
-  return fmt::format(
-      "Of single constants and readings, {} would close the gap best, to first order wandering {} ({}).",
-      title_of(best), range, discovery::p_words(wandering.p_value));
+      best.slot.logarithmic ? fmt::format("by factors from {:.2g} to {:.2g}", std::exp(least), std::exp(most))
+                            : fmt::format("by {:+.2g} to {:+.2g} {}", least / best.slot.unit_size,
+                                          most / best.slot.unit_size, best.slot.unit);
+  return fmt::format("Of single slots, {} would close the gap best, to first order wandering {} ({}).",
+                     best.slot.title(), range, discovery::p_words(wandering.p_value));
 }
 
-void add_wandering(Page& page, const Wandering& wandering) {
+void add_wandering(Page& page, const Wandering& wandering, const std::string& words) {
   page.section("One slot at a time");
-  page.paragraph(
-      "One constant of the law, or one reading, at a time is let wander as a polygon over the time of each "
-      "test or over stress, beside the base's parameters, to first order. A gap that closes when the stress "
-      "read wanders over stress points at the load cell; one that closes with D_r over time, at the soil. "
-      "A constant part is the base's own, where it is free.");
+  page.paragraph(words);
   Table table{
       .caption = "How much each would gain, the most telling first.",
       .header = {"slot", "over", "directions", "gain of chi-squared", "stands out"},
       .alignment = {Alignment::left, Alignment::left, Alignment::right, Alignment::right, Alignment::right}};
   for (const WanderingSlot& slot : wandering.slots) {
-    table.rows.push_back({std::string(experiments::info_of(slot.slot).name), std::string(name_of(slot.along)),
+    table.rows.push_back({std::string(slot.slot.name), std::string(slot.slot.along->name),
                           fmt::format("{}", slot.freedom), format_number(slot.gain, 3),
                           slot.freedom > 0 ? format_number(slot.stands_out, 3) : kMissing});
   }
@@ -118,8 +100,8 @@ nlohmann::ordered_json wandering_json(const Wandering& wandering) {
   nlohmann::ordered_json json{{"p_value", json_number(wandering.p_value)},
                               {"slots", nlohmann::ordered_json::array()}};
   for (const WanderingSlot& slot : wandering.slots) {
-    nlohmann::ordered_json one{{"slot", experiments::info_of(slot.slot).name},
-                               {"along", name_of(slot.along)},
+    nlohmann::ordered_json one{{"slot", slot.slot.name},
+                               {"along", slot.slot.along->name},
                                {"directions", slot.freedom},
                                {"gain", json_number(slot.gain)},
                                {"p_value", json_number(slot.p_value)},

@@ -13,6 +13,7 @@
 #include "discovery/left_out.hpp"
 #include "discovery/limits.hpp"
 #include "discovery/meets_noise.hpp"
+#include "discovery/oedometer_wandering.hpp"
 
 namespace isotach::discovery {
 namespace {
@@ -174,9 +175,9 @@ TEST(Discovery, ScoresAreThoseOfLeastSquares) {
 }
 
 /// The first of the slots that stand out over that variable.
-const WanderingSlot& first_over(const Wandering& wandering, Along along) {
+const WanderingSlot& first_over(const Wandering& wandering, const WanderAxis& along) {
   return *std::find_if(wandering.slots.begin(), wandering.slots.end(),
-                       [along](const WanderingSlot& slot) { return slot.along == along; });
+                       [&along](const WanderingSlot& slot) { return slot.slot.along == &along; });
 }
 
 // An error of the load cell's zero is in no catalogue: a/sigma of the stress read, and nothing else.
@@ -191,8 +192,8 @@ TEST(Wandering, FindsTheReadingThatIsWrongAndHowWrong) {
   const auto found = let_wander(study, *base, base->fit.noise.weights, 2);
   ASSERT_TRUE(found.has_value()) << found.error().message;
   EXPECT_LT(found->p_value, 0.002);
-  const WanderingSlot& first = first_over(*found, Along::stress);
-  EXPECT_EQ(first.slot, experiments::Slot::stress_reading);
+  const WanderingSlot& first = first_over(*found, kOverStress);
+  EXPECT_EQ(first.slot.name, "stress_reading");
   ASSERT_EQ(first.curves.size(), 1U);
   EXPECT_EQ(first.curves.front().at.size(), kWanderKnots);
   // what it changes beyond the base's parameters is what the error does

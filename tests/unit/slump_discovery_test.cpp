@@ -9,6 +9,7 @@
 #include <random>
 
 #include "datasets/slump_effects.hpp"
+#include "discovery/limits.hpp"
 #include "effects/bleeding.hpp"
 #include "effects/wall_adhesion.hpp"
 #include "effects/yield_stress.hpp"
@@ -42,12 +43,14 @@ tl::expected<mpm::SlumpResult, mpm::RunFailure> mound(const std::string& /*test*
     const double lifting = std::exp(-time * setup.mould.lift_speed / fill);
     const double late = std::log1p(time);
     const double height =
-        fill * (0.5 + 0.15 * std::log(parameters.I_v() / 0.03) - 0.03 * late -
+        fill * (0.5 + 0.1 * setup.wander.in_time(mpm::WanderSlot::strength_in_time, time) +
+                0.15 * std::log(parameters.I_v() / 0.03) - 0.03 * late -
                 0.8 * (parameters.C_1() - 0.05) * lifting) +
-        2e-4 * setup.mould.wall.adhesion * lifting + 0.3 * std::max(0.0, setup.numerics.cell_size - kFine) +
+        2e-4 * setup.wall_at(time).adhesion * lifting +
+        0.3 * std::max(0.0, setup.numerics.cell_size - kFine) +
         fill * late * (1e-3 * setup.effects.resistance.yield_stress + 0.04 * setup.effects.draining_rate);
     const double power =
-        2.0 + 0.02 * setup.mould.wall.adhesion * lifting + 0.5 * setup.effects.void_ratio_gradient;
+        2.0 + 0.02 * setup.wall_at(time).adhesion * lifting + 0.5 * setup.effects.void_ratio_gradient;
     const double radius = 0.5 * setup.mould.diameter;
     // volume: pi toe^2 height (1 - 2/(power + 2))
     const double toe = radius * std::sqrt(fill / (height * (1.0 - 2.0 / (power + 2.0))));
@@ -140,6 +143,32 @@ TEST(SlumpDiscovery, NamesTheAdhesionThatIsHidden) {
     EXPECT_LT(std::abs(found.disagreement.front().mean_by_best),
               0.5 * std::abs(found.disagreement.front().mean));
   }
+}
+
+// Of wall, base and strength it is the wall that would have to be another, in every test by as much.
+TEST(SlumpDiscovery, SaysWhatWouldHaveToWander) {
+  constexpr double kAdhesion = 40.0;  // Pa
+  const SlumpDiscovery found = discovered(study_of(only(effects::wall_adhesion::kEffect, kAdhesion), 2));
+  ASSERT_TRUE(found.wandering);
+  EXPECT_LT(found.wandering->p_value, 0.002);
+  ASSERT_EQ(found.wandering->slots.size(), 5U);
+  const WanderingSlot& first = found.wandering->slots.front();
+  ASSERT_EQ(first.slot.name, "wall_adhesion");
+  ASSERT_EQ(first.curves.size(), 4U) << "one for each fitted test";
+  for (const WanderCurve& curve : first.curves) {
+    ASSERT_EQ(curve.at.size(), kWanderKnots);
+    EXPECT_LT(curve.at.back(), 30.0) << "a wall acts while the mould is lifted";
+    for (std::size_t k = 0; k < curve.at.size(); ++k) {
+      if (curve.at[k] < 0.5) continue;  // before the first outline, which says little of what came before
+      EXPECT_LT(curve.std_error[k], 10.0);
+      EXPECT_NEAR(curve.change[k], kAdhesion, 0.1 * kAdhesion + 4.0 * curve.std_error[k])
+          << curve.test << " after " << curve.at[k] << " s";
+    }
+  }
+}
+
+TEST(SlumpDiscovery, LetsNothingWanderWhereTheModelSuffices) {
+  EXPECT_FALSE(discovered(study_of({}, 1)).wandering);
 }
 
 /// The study by cells that are 3 mm off, and the present ones for a reference.
