@@ -21,7 +21,6 @@ using namespace isotach;
 using bench::Record;
 
 constexpr std::uint64_t kReported = 6;
-constexpr double kTypicalNoise = 0.5e-3;  // m, for the record
 
 std::vector<std::string> names_of(const discovery::SlumpTrial& trial) {
   std::vector<std::string> names;
@@ -58,7 +57,7 @@ Record run_case(const bench::SlumpCase& one, std::uint64_t seed) {
   record.kind = one.effect == nullptr ? "null" : "effect";
   if (one.effect != nullptr) record.hidden.emplace_back(one.effect->name);
   record.programme = "slump";
-  record.noise = kTypicalNoise;
+  record.noise = one.noise;
   record.wanted = one.visibility;
   const double none = std::numeric_limits<double>::quiet_NaN();
   record.gap_after = record.held_out_after = record.amplitude = record.lower = record.upper = none;

@@ -2,7 +2,9 @@
 #include "bench/discovery/slump_study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "bench/discovery/made_study.hpp"
@@ -19,15 +21,21 @@ namespace {
 using datasets::SlumpTest;
 using model::ParameterId;
 
-constexpr int kFitterCells = 5;      // across the mould's radius: 7.8 mm
-constexpr int kReferenceCells = 7;   // 5.6 mm, the plain scheme
-constexpr int kGeneratorCells = 8;   // 4.9 mm, the plain scheme, other points and tolerance
+// cells across the mould's radius, of the conserving scheme
+constexpr int kFitterCells = 6;      // 6.5 mm
+constexpr int kReferenceCells = 10;  // 3.9 mm
+constexpr int kSeekCells = 8;        // 4.9 mm, where an amplitude is sought
+constexpr int kGeneratorCells = 11;  // 3.5 mm
 constexpr double kLongest = 10.0;    // s, of mud
 constexpr std::size_t kPoints = 30;  // of an outline
-constexpr OutlineNoise kNoise{0.4e-3, 0.3e-3};
 // what oedometer tests leave of I_v (relative) and C_1
 constexpr double kKnownViscosity = 0.03;
 constexpr double kKnownC1 = 0.005;
+
+/// Half of the variance is each point's own, half is shared.
+OutlineNoise noise_of(const SlumpCase& one) {
+  return {one.noise * std::sqrt(0.5), one.noise * std::sqrt(0.5)};
+}
 
 void set_cells(mpm::Numerics& numerics, const SlumpTest& test, int cells) {
   numerics.cell_size = 0.5 * test.setup.mould.diameter / cells;
@@ -42,7 +50,7 @@ model::Parameters<double> random_truth(const model::Parameters<double>& stated, 
 }
 
 /// Three tests of datasets/mud-a and one held out, without what was measured.
-std::vector<SlumpTest> blank_tests(const datasets::Study& from) {
+std::vector<SlumpTest> blank_tests(const datasets::Study& from, const OutlineNoise& noise) {
   std::vector<SlumpTest> tests;
   for (const std::string name : {"slump-1", "slump-2", "slump-3", "slump-4"}) {
     const auto found = std::find_if(from.slump_tests.begin(), from.slump_tests.end(),
@@ -51,8 +59,8 @@ std::vector<SlumpTest> blank_tests(const datasets::Study& from) {
     std::erase_if(test.outlines, [](const datasets::Outline& outline) { return outline.time > kLongest; });
     test.setup.times.clear();
     for (const datasets::Outline& outline : test.outlines) test.setup.times.push_back(outline.time);
-    const double all = std::hypot(kNoise.reading, kNoise.shared);
-    test.noise = {all, all, kNoise.shared};
+    const double all = std::hypot(noise.reading, noise.shared);
+    test.noise = {all, all, noise.shared};
     test.hold_out = name == "slump-4";
     test.reference.reset();
     tests.push_back(std::move(test));
@@ -62,18 +70,29 @@ std::vector<SlumpTest> blank_tests(const datasets::Study& from) {
 
 const experiments::Simulate simulate = calibration::plain_simulation(nullptr);
 
-/// The generator: tests with numerics of its own, at the truth.
+/// Numerics in which an amplitude is sought.
+void set_to_seek(SlumpTest& test) {
+  set_cells(test.setup.numerics, test, kSeekCells);
+}
+
+/// Numerics in which studies are measured: finer and stricter than any that fits use, with stiffer water.
+void set_to_measure(SlumpTest& test) {
+  mpm::Numerics& numerics = test.setup.numerics;
+  set_cells(numerics, test, kGeneratorCells);
+  numerics.points_per_cell = 9;
+  numerics.tolerance = 1e-3;
+  numerics.water_bulk_modulus *= 2.0;
+  numerics.courant = 0.6;
+  numerics.inertia_scaling = 50.0;
+}
+
+/// Tests as they are with some numerics, at the truth.
 class Generator {
  public:
-  Generator(std::vector<SlumpTest> tests, const model::Parameters<double>& truth)
+  Generator(std::vector<SlumpTest> tests, const model::Parameters<double>& truth,
+            const std::function<void(SlumpTest&)>& set_numerics)
       : tests_(std::move(tests)), truth_(truth) {
-    for (SlumpTest& test : tests_) {
-      mpm::Numerics& numerics = test.setup.numerics;
-      set_cells(numerics, test, kGeneratorCells);
-      numerics.scheme = mpm::Scheme::plain;
-      numerics.points_per_cell = 9;
-      numerics.tolerance = 1e-3;
-    }
+    for (SlumpTest& test : tests_) set_numerics(test);
   }
 
   /// Puts what the tests show with the effects in the place of what was measured.
@@ -133,9 +152,9 @@ std::optional<discovery::Projection> base_of(const Generator& generator,
 }
 
 /// Moves each point along its outline's normal by its error, outwards.
-void add_noise(SlumpTest& test, std::mt19937_64& random) {
+void add_noise(SlumpTest& test, const OutlineNoise& noise, std::mt19937_64& random) {
   const experiments::SlumpExperiment experiment(test);
-  const experiments::Values errors = draw_errors(experiment, kNoise, random);
+  const experiments::Values errors = draw_errors(experiment, noise, random);
   std::size_t next = 0;
   for (datasets::Outline& outline : test.outlines) {
     const auto points = outline.points;
@@ -156,16 +175,22 @@ void add_noise(SlumpTest& test, std::mt19937_64& random) {
 }  // namespace
 
 std::vector<SlumpCase> slump_plan() {
-  constexpr int kRounds = 5;
-  constexpr int kNulls = 2;
+  constexpr std::size_t kRounds = 6;
+  constexpr std::size_t kNulls = 2;
+  constexpr std::array kRatios{30.0, 10.0, 5.0};
+  constexpr std::array kNoises{1e-3, 0.5e-3, 2e-3};
   std::vector<SlumpCase> plan;
-  for (int round = 0; round < kRounds; ++round) {
-    int turn = round;
+  for (std::size_t round = 0; round < kRounds; ++round) {
+    std::size_t k = 0;
     for (const effects::Effect* effect : effects::catalogue()) {
       if (effect->test != effects::TestKind::slump) continue;
-      plan.push_back({plan.size(), effect, turn++ % 2 == 0 ? 30.0 : 10.0});
+      const std::size_t turn = round + k;
+      plan.push_back({plan.size(), effect, kRatios[turn % 3], kNoises[(turn + round / 3 + k / 3) % 3]});
+      ++k;
     }
-    for (int k = 0; k < kNulls; ++k) plan.push_back({plan.size(), nullptr, 0.0});
+    for (std::size_t n = 0; n < kNulls; ++n) {
+      plan.push_back({plan.size(), nullptr, 0.0, kNoises[(round + n) % 3]});
+    }
   }
   return plan;
 }
@@ -177,13 +202,14 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
   const datasets::Study from =
       datasets::read_study(std::filesystem::path(ISOTACH_SOURCE_DIR) / "datasets/mud-a/study.toml");
   const model::Parameters<double> truth = random_truth(from.material, random);
-  MadeSlumpStudy made{{"synthetic", {}, truth, {}, {}, {}, blank_tests(from), {}}, {truth, {}}};
-  Generator generator(made.study.slump_tests, truth);
+  const OutlineNoise noise = noise_of(one);
+  MadeSlumpStudy made{{"synthetic", {}, truth, {}, {}, {}, blank_tests(from, noise), {}}, {truth, {}}};
   effects::Values<double> hidden;
-  if (auto failure = generator.measure({})) return tl::unexpected(*failure);
   if (one.effect != nullptr) {
-    const auto unchanged = generator.seen({}, truth);
-    const auto base = unchanged ? base_of(generator, truth, *unchanged) : std::nullopt;
+    Generator quick(made.study.slump_tests, truth, set_to_seek);
+    if (auto failure = quick.measure({})) return tl::unexpected(*failure);
+    const auto unchanged = quick.seen({}, truth);
+    const auto base = unchanged ? base_of(quick, truth, *unchanged) : std::nullopt;
     if (!base) return tl::unexpected(std::string("no derivatives at the truth"));
     const auto with = [&](double amplitude) {
       return effects::Values<double>::create({effects::with_amplitude(*one.effect, amplitude)});
@@ -191,7 +217,7 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
     const auto shown = [&](double amplitude) -> std::optional<double> {
       const auto on = with(amplitude);
       if (!on) return std::nullopt;
-      const auto there = generator.seen(*on, truth);
+      const auto there = quick.seen(*on, truth);
       if (!there) return std::nullopt;
       Eigen::VectorXd change = Eigen::VectorXd::Zero(unchanged->size() + 2);
       change.head(unchanged->size()) = *there - *unchanged;
@@ -204,16 +230,16 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
     made.reached = sought.reached;
     if (!made.reached) return made;
     hidden = *with(sought.amplitude);
-    if (auto failure = generator.measure(hidden)) return tl::unexpected(*failure);
   }
+  Generator generator(made.study.slump_tests, truth, set_to_measure);
+  if (auto failure = generator.measure(hidden)) return tl::unexpected(*failure);
   for (std::size_t i = 0; i < generator.tests().size(); ++i) {
     SlumpTest& test = made.study.slump_tests[i];
     test.outlines = generator.tests()[i].outlines;
-    add_noise(test, random);
+    add_noise(test, noise, random);
     set_cells(test.setup.numerics, test, kFitterCells);
     test.reference = test.setup.numerics;
     set_cells(*test.reference, test, kReferenceCells);
-    test.reference->scheme = mpm::Scheme::plain;
   }
   // oedometer tests know I_v and C_1 so well, and the rest exactly
   model::ParameterValues<double> known = truth.values();

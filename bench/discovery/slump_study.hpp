@@ -16,10 +16,11 @@ struct SlumpCase {
   std::size_t number;
   const effects::Effect* effect;  ///< hidden; null where nothing is
   double visibility;              ///< signal to noise after projection; 0 where nothing is hidden
+  double noise;                   ///< m, standard deviation of an outline's points
 };
 
-/// Five rounds of all slump effects of the catalogue and two studies with nothing hidden, visibilities 10 and
-/// 30 by turns.
+/// Six rounds of all slump effects of the catalogue and two studies with nothing hidden: visibilities of 5, 10
+/// and 30 and noise of 0.5, 1 and 2 mm, all cells of which are equally full over the effects.
 [[nodiscard]] std::vector<SlumpCase> slump_plan();
 
 struct MadeSlumpStudy {
