@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "calibration/parallel.hpp"
 #include "calibration/reference_numerics.hpp"
@@ -195,29 +196,37 @@ class Differences {
   Neighbours in_time_;
 };
 
+using Run = tl::expected<mpm::SlumpResult, mpm::RunFailure>;
+
 /// Adds what simulations as fits make them differ by where the viscosity index is a hair larger or smaller:
-/// a column that topples does so here or there.
+/// a column that topples does so here or there. `at_best` are those by the best numerics of each test.
 tl::expected<void, FitFailure> nudge(const std::vector<const datasets::SlumpTest*>& tests,
-                                     const effects::Values<double>& effects,
+                                     std::span<const Run> at_best, const effects::Values<double>& effects,
                                      const model::Parameters<double>& parameters,
                                      const experiments::Simulate& simulate, int threads,
                                      Differences& differences) {
   constexpr std::array kFactors{1.0, 1.0 + kNudge, 1.0 - kNudge};
-  std::vector<tl::expected<mpm::SlumpResult, mpm::RunFailure>> runs(tests.size() * kFactors.size());
+  std::vector<std::optional<Run>> runs(tests.size() * kFactors.size());
   parallel_for(runs.size(), threads, [&](std::size_t i) {
     const datasets::SlumpTest& test = *tests[i / kFactors.size()];
+    const double factor = kFactors[i % kFactors.size()];
+    if (factor == 1.0 && !test.reference) return;  // it is one of at_best
     auto values = parameters.values();
-    values[model::ParameterId::I_v] *= kFactors[i % kFactors.size()];
+    values[model::ParameterId::I_v] *= factor;
     runs[i] = simulate(test.name, *model::Parameters<double>::create(values),
                        datasets::with_effects(test.setup, effects));
   });
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto& base = runs[i - i % kFactors.size()];
-    if (!runs[i] && runs[i].error().status == mpm::RunStatus::interrupted) {
+  for (const auto& run : runs) {
+    if (run && !*run && run->error().status == mpm::RunStatus::interrupted) {
       return tl::unexpected(FitFailure{"interrupted", true});
     }
-    if (i % kFactors.size() == 0 || !base || !runs[i]) continue;
-    differences.add_nudge(i / kFactors.size(), *base, *runs[i]);
+  }
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const std::optional<Run>* own = &runs[t * kFactors.size()];
+    const Run& base = own[0] ? *own[0] : at_best[t];
+    for (std::size_t k = 1; k < kFactors.size(); ++k) {
+      if (base && *own[k]) differences.add_nudge(t, *base, **own[k]);
+    }
   }
   return {};
 }
@@ -234,7 +243,7 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
   constexpr std::size_t kVariants = kNumericalVariants;
   const Changes& changes = has_reference(study) ? kReferenceChanges : kChanges;
   // the last run of each test is that of the study's numerics
-  std::vector<tl::expected<mpm::SlumpResult, mpm::RunFailure>> runs(tests.size() * (kVariants + 1));
+  std::vector<Run> runs(tests.size() * (kVariants + 1));
   parallel_for(runs.size(), threads, [&](std::size_t i) {
     const datasets::SlumpTest& test = *tests[i % tests.size()];
     const std::size_t variant = i / tests.size();
@@ -251,6 +260,9 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
       return tl::unexpected(FitFailure{"interrupted", true});
     last_failure = run.error().message;
   }
+  const auto nudged =
+      nudge(tests, std::span(runs).subspan(bases), study.effects, parameters, simulate, threads, differences);
+  if (!nudged) return tl::unexpected(nudged.error());
   bool any = false;
   for (std::size_t variant = 0; variant < kVariants; ++variant) {
     NumericalVariant found;
@@ -281,8 +293,6 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
     return tl::unexpected(FitFailure{
         "the error of the simulations cannot be measured at the start values: " + last_failure, false});
   }
-  const auto nudged = nudge(tests, study.effects, parameters, simulate, threads, differences);
-  if (!nudged) return tl::unexpected(nudged.error());
   result.error = differences.error();
   std::size_t fitted = 0;
   for (const datasets::SlumpTest& test : study.slump_tests) {

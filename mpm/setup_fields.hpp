@@ -91,8 +91,10 @@ void visit_fields(Setup& setup, Visitor&& visit) {
     int number = static_cast<int>(slot);
     visit("wander_slot", number);
     if constexpr (!std::is_const_v<Setup>) slot = static_cast<WanderSlot>(number);
-    visit("wander_at", at);
-    visit("wander_change", change);
+    if (slot != WanderSlot::nothing) {
+      visit("wander_at", at);
+      visit("wander_change", change);
+    }
   }
 }
 

@@ -168,9 +168,9 @@ TEST(JournalKey, IsTheUuidOfItsText) {
       R"("background_viscosity_Pa_s":0.2,"inertia_scaling":100.0,"plain_scheme":false,"times_s":[0.1,0.2],)"
       R"("thixotropy_gain":0.0,"thixotropy_recovery_time_s":1.0,"thixotropy_breakdown":1.0,)"
       R"("yield_stress_Pa":0.0,"consistency_Pa_s_n":0.0,"flow_index":0.5,"draining_rate_per_s":0.0,)"
-      R"("void_ratio_gradient":0.0,"surface_tension_N_per_m":0.0})");
-  EXPECT_EQ(inputs.key, "3a11b1ec-7e15-5b4c-9e17-7be2ecf4d9ae");
-  EXPECT_EQ(inputs.setup_key, "8e028810-de2a-5084-bac5-5915bca7db4a");
+      R"("void_ratio_gradient":0.0,"surface_tension_N_per_m":0.0,"wander_slot":0})");
+  EXPECT_EQ(inputs.key, "4c7ba83b-319e-5b58-afc1-525a72863171");
+  EXPECT_EQ(inputs.setup_key, "070db549-bf0f-58b1-88f0-8ff2033c3e62");
 }
 
 class JournalRefuses : public JournalTest {

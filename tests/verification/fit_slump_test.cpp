@@ -62,8 +62,9 @@ TEST_P(FitSlump, RecoversTheIvOfTheTruth) {
   ASSERT_TRUE(found.has_value()) << found.error().message;
   EXPECT_TRUE(found->search.converged) << found->search.termination;
   EXPECT_NEAR(found->at.parameters.I_v() / kTrueIv, 1.0, 0.03);
-  // besides the search, the error of the simulations: both tests with four kinds of numerics
-  EXPECT_EQ(found->runs.total(), 2 * (found->search.evaluations + 4));
+  // besides the search, the error of the simulations: both tests with four kinds of numerics, and nudged
+  // twice
+  EXPECT_EQ(found->runs.total(), 2 * (found->search.evaluations + 6));
   for (const model::ParameterId id : {e100, lambda, kappa, D_r, phi_c, C_1}) {
     EXPECT_EQ(found->at.parameters[id], tests::seed_mud()[id]);
   }
@@ -77,8 +78,8 @@ TEST(FitSlumpRoutes, EndAtTheSameAnswerAndEachIsCounted) {
   const auto found = search_slump(study, tests::seed_mud_with(I_v, 1.3 * kTrueIv), {I_v}, options);
   ASSERT_TRUE(found.has_value()) << found.error().message;
   ASSERT_EQ(found->others.size(), 2U);
-  // two tests with four kinds of numerics besides, for the error of the simulations
-  long simulations = found->search.simulations + 8;
+  // two tests with four kinds of numerics and two nudges besides, for the error of the simulations
+  long simulations = found->search.simulations + 12;
   EXPECT_GT(found->search.simulations, 0);
   for (const OptimiserResult& route : found->others) {
     EXPECT_GE(route.cost, found->search.cost) << route.route;
