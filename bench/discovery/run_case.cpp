@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/discovery/caught.hpp"
 #include "bench/discovery/made_study.hpp"
 #include "calibration/distributions.hpp"
 #include "discovery/discover.hpp"
@@ -86,16 +87,6 @@ void note_answer(const Case& one, const MadeStudy& made, const discovery::Discov
   }
 }
 
-/// An exception is a failure like others: counted, and no end of the benchmark.
-tl::expected<discovery::Discovery, calibration::FitFailure> discover(
-    const datasets::Study& study, const discovery::DiscoverOptions& options) {
-  try {
-    return discovery::discover_oedometer(study, options);
-  } catch (const std::exception& error) {
-    return tl::unexpected(calibration::FitFailure{std::string("exception: ") + error.what()});
-  }
-}
-
 }  // namespace
 
 Record run_case(const Case& one, std::uint64_t seed) {
@@ -128,7 +119,7 @@ Record run_case(const Case& one, std::uint64_t seed) {
   discovery::DiscoverOptions options;
   if (one.kind == Kind::deleted) options.without = one.effects;
   const auto begin = std::chrono::steady_clock::now();
-  const auto found = discover(made->study, options);
+  const auto found = caught([&] { return discovery::discover_oedometer(made->study, options); });
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   record.state = found ? "done" : "failed";
   if (found) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bench/discovery/caught.hpp"
 #include "bench/discovery/rates.hpp"
 #include "bench/discovery/record.hpp"
 #include "bench/discovery/slump_study.hpp"
@@ -20,7 +21,7 @@ namespace {
 using namespace isotach;
 using bench::Record;
 
-constexpr std::uint64_t kReported = 6;
+constexpr std::uint64_t kReported = 7;
 
 std::vector<std::string> names_of(const discovery::SlumpTrial& trial) {
   std::vector<std::string> names;
@@ -76,7 +77,7 @@ Record run_case(const bench::SlumpCase& one, std::uint64_t seed) {
   discovery::SlumpDiscoverOptions options;
   options.knowledge = made->knowledge;
   const auto begin = std::chrono::steady_clock::now();
-  const auto found = discovery::discover_slump(made->study, options);
+  const auto found = bench::caught([&] { return discovery::discover_slump(made->study, options); });
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   record.state = found ? "done" : "failed";
   if (found) {
@@ -124,18 +125,22 @@ std::string page(const std::vector<Record>& records, std::size_t planned) {
   share("right name", "75 %", effect, right);
   share("right name or an ambiguous set that holds it", "90 %", effect,
         [&](const Record& r) { return right(r) || holds_truth(r); });
-  for (const double visibility : {10.0, 30.0}) {
+  share(
+      "right name, signal to noise 10 and 30", "",
+      [&](const Record& r) { return effect(r) && r.wanted >= 10.0; }, right);
+  for (const double visibility : {5.0, 10.0, 30.0}) {
     share(
         fmt::format("right name, signal to noise {:g}", visibility), "",
         [&](const Record& r) { return effect(r) && r.wanted == visibility; }, right);
   }
   text +=
-      "\n| hidden | signal to noise | outcome | gap | held out | amplitude (SI), true | named | s |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "\n| hidden | signal to noise | noise (mm) | outcome | gap | held out | amplitude (SI), true | named | "
+      "s |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   for (const Record& r : records) {
     const std::string outcome = done(r) ? bench::outcome_of(r) : r.state;
-    text += fmt::format("| {} | {:g} | {}{} | {:.2f} | {:.2f} | {} | {} | {:.0f} |\n",
-                        r.hidden.empty() ? "nothing" : r.hidden.front(), r.wanted, outcome,
+    text += fmt::format("| {} | {:g} | {:g} | {}{} | {:.2f} | {:.2f} | {} | {} | {:.0f} |\n",
+                        r.hidden.empty() ? "nothing" : r.hidden.front(), r.wanted, 1e3 * r.noise, outcome,
                         outcome == "ambiguous" && holds_truth(r) ? ", holds it" : "", r.gap_before,
                         r.held_out_before,
                         r.true_amplitudes.empty() ? "" : fmt::format("{:.3g}", r.true_amplitudes.front()),

@@ -19,8 +19,8 @@ struct SlumpCase {
   double noise;                   ///< m, standard deviation of an outline's points
 };
 
-/// Six rounds of all slump effects of the catalogue and two studies with nothing hidden: visibilities of 5, 10
-/// and 30 and noise of 0.5, 1 and 2 mm, all cells of which are equally full over the effects.
+/// Six rounds of all slump effects of the catalogue and two studies with nothing hidden: visibilities of 5,
+/// 10 and 30 and noise of 0.5, 1 and 2 mm, all cells of which are equally full over the effects.
 [[nodiscard]] std::vector<SlumpCase> slump_plan();
 
 struct MadeSlumpStudy {
