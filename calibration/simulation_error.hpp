@@ -47,9 +47,9 @@ struct SimulationError {
 /// the error: half of their variance may be the variants' own, but an error common to all of them is not
 /// seen. Each outline's own differences count for its error, with those of its test and of all tests as one
 /// variant more each: a mould that is lifted slowly leaves more to the numerics than one that is lifted at
-/// once. To that comes what a change of I_v by some thousandths does to simulations with the study's numerics:
-/// little, but for mud that topples. Correlations are those of neighbouring places and times. Nothing of the
-/// data is used.
+/// once. To that comes what a change of I_v by some thousandths does to simulations with the study's
+/// numerics: little, but for mud that topples. Correlations are those of neighbouring places and times.
+/// Nothing of the data is used.
 [[nodiscard]] tl::expected<SimulationError, FitFailure> measure_simulation_error(
     const datasets::Study& study, const model::Parameters<double>& parameters,
     const experiments::Simulate& simulate, int threads);

@@ -45,13 +45,13 @@ inline constexpr std::size_t kPaired = 4;
 /// The same of slump tests, where a fit is a dozen sets of simulations.
 inline constexpr std::size_t kSlumpRefitted = 3;
 inline constexpr std::size_t kSlumpPaired = 3;
-/// Sigma, freed of what the base can do, by which an effect should show where its signature is taken: what two
-/// simulations differ by for no reason is a part of one. An effect that its typical amplitude shows less is
-/// taken at a larger one, of at most so many typical ones.
+/// Sigma, freed of what the base can do, by which an effect should show where its signature is taken: what
+/// two simulations differ by for no reason is a part of one. An effect that its typical amplitude shows less
+/// is taken at a larger one, of at most so many typical ones.
 inline constexpr double kSlumpShows = 5.0;
 inline constexpr double kSlumpLargest = 30.0;
-/// A second effect is fitted beside another where noise would let some effect promise as much, to first order,
-/// in so few cases: ten times kLeavesNothing, as promises are secants.
+/// A second effect is fitted beside another where noise would let some effect promise as much, to first
+/// order, in so few cases: ten times kLeavesNothing, as promises are secants.
 inline constexpr double kSlumpPromise = 0.1;
 /// Knots of a function along which a slot wanders: each costs power against a drift or a bend, and what needs
 /// more of them is seen better in the residuals.

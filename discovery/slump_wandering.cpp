@@ -9,7 +9,6 @@
 #include "datasets/slump_effects.hpp"
 #include "discovery/limits.hpp"
 #include "discovery/linear_model.hpp"
-
 #include "effects/basal_slip.hpp"
 #include "effects/wall_adhesion.hpp"
 
