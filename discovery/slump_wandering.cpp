@@ -90,8 +90,8 @@ std::vector<double> knots_of(WanderSlot slot, const mpm::SlumpSetup& setup) {
                 std::log(setup.times.back()));
 }
 
-/// What a hat of plausible height at each knot does to residuals, before they are whitened: for each test its
-/// rows of zeros but its own.
+/// What a hat of plausible height at each knot of each test does to the residuals of all tests, before they
+/// are whitened: zero but for those of the test.
 using Changes = std::vector<std::vector<Eigen::VectorXd>>;
 
 class SlumpWandering {

@@ -262,9 +262,8 @@ void add_slump_discovery(Page& page, const SlumpDiscovery& found) {
         "The adhesion of the wall, the slip length of the base or the strength of the mud is let wander as a "
         "polygon over the time of each test, strength over the height in the fill or over strain rate too, "
         "beside the base's parameters, to first order. A gap that closes when the wall wanders is the "
-        "mould's; "
-        "one that closes when strength does, the material's. Negative adhesions and lengths say that the "
-        "other way round would be wanted.");
+        "mould's; one that closes when strength does, the material's. Negative adhesions and lengths say "
+        "that the other way round would be wanted.");
   }
   add_not_tried(page, found.not_tried);
 }

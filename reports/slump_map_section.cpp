@@ -189,11 +189,9 @@ void add_simulation_error(Page& page, const calibration::SimulationError& error)
   }
   table.notes = {fmt::format(
       "Taken for the error of a simulated outline: {} mm over all tests, {} mm while lifting, each outline "
-      "by "
-      "its own differences and by what three thousandths of I_v do to it; shared along {} % of an outline's "
-      "length "
-      "and over a factor of {} in time. It is part of the covariance, so that nothing is fitted below it. An "
-      "error common to all these grids is not seen this way.",
+      "by its own differences and by what three thousandths of I_v do to it; shared along {} % of an "
+      "outline's length and over a factor of {} in time. It is part of the covariance, so that nothing is "
+      "fitted below it. An error common to all these grids is not seen this way.",
       rounded_mm(error.error.outline), rounded_mm(error.error.lifting),
       format_number(100.0 * error.error.along, 2), format_number(std::exp(error.error.in_time), 2))};
   page.table(std::move(table));

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "bench/discovery/caught.hpp"
+#include "bench/discovery/plan.hpp"
 #include "bench/discovery/rates.hpp"
 #include "bench/discovery/record.hpp"
 #include "bench/discovery/slump_study.hpp"
@@ -128,7 +129,7 @@ std::string page(const std::vector<Record>& records, std::size_t planned) {
   share(
       "right name, signal to noise 10 and 30", "",
       [&](const Record& r) { return effect(r) && r.wanted >= 10.0; }, right);
-  for (const double visibility : {5.0, 10.0, 30.0}) {
+  for (const double visibility : bench::kVisibilities) {
     share(
         fmt::format("right name, signal to noise {:g}", visibility), "",
         [&](const Record& r) { return effect(r) && r.wanted == visibility; }, right);

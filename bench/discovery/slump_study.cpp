@@ -8,6 +8,7 @@
 #include <random>
 
 #include "bench/discovery/made_study.hpp"
+#include "bench/discovery/plan.hpp"
 #include "bench/outline_noise.hpp"
 #include "bench/synthetic_oedometer.hpp"
 #include "calibration/fit_slump.hpp"
@@ -177,7 +178,6 @@ void add_noise(SlumpTest& test, const OutlineNoise& noise, std::mt19937_64& rand
 std::vector<SlumpCase> slump_plan() {
   constexpr std::size_t kRounds = 6;
   constexpr std::size_t kNulls = 2;
-  constexpr std::array kRatios{30.0, 10.0, 5.0};
   constexpr std::array kNoises{1e-3, 0.5e-3, 2e-3};
   std::vector<SlumpCase> plan;
   for (std::size_t round = 0; round < kRounds; ++round) {
@@ -185,7 +185,9 @@ std::vector<SlumpCase> slump_plan() {
     for (const effects::Effect* effect : effects::catalogue()) {
       if (effect->test != effects::TestKind::slump) continue;
       const std::size_t turn = round + k;
-      plan.push_back({plan.size(), effect, kRatios[turn % 3], kNoises[(turn + round / 3 + k / 3) % 3]});
+      // the plainest first
+      plan.push_back(
+          {plan.size(), effect, kVisibilities[2 - turn % 3], kNoises[(turn + round / 3 + k / 3) % 3]});
       ++k;
     }
     for (std::size_t n = 0; n < kNulls; ++n) {

@@ -7,6 +7,17 @@
 
 namespace isotach::mpm {
 
+namespace {
+
+/// |D|^2 of the chunk's point p (1/s2).
+double squared_rate(const MaterialChunk& chunk, std::size_t p) {
+  double squares = 0.0;
+  for (const auto& component : chunk.strain_rate) squares += component[p] * component[p];
+  return squares;
+}
+
+}  // namespace
+
 MudWithEffects::MudWithEffects(const model::Parameters<double>& parameters,
                                const VhpMaterial::Settings& settings, const MudEffects& effects,
                                double void_ratio, const Wander& wander)
@@ -21,9 +32,7 @@ void MudWithEffects::advance_structure(Particles& q, const MaterialChunk& chunk,
   const Thixotropy& thixotropy = effects_.thixotropy;
   const double recovery = 1.0 / thixotropy.recovery_time;
   for (std::size_t p = 0; p < chunk.count; ++p) {
-    double squares = 0.0;
-    for (const auto& component : chunk.strain_rate) squares += component[p] * component[p];
-    const double rate = recovery + thixotropy.breakdown * std::sqrt(2.0 * squares);
+    const double rate = recovery + thixotropy.breakdown * std::sqrt(2.0 * squared_rate(chunk, p));
     const double steady = recovery / rate;
     double& xi = q.structure[chunk.begin + p];
     const double before = xi;
@@ -35,9 +44,7 @@ void MudWithEffects::advance_structure(Particles& q, const MaterialChunk& chunk,
 void MudWithEffects::add_wander(const Particles& q, const MaterialChunk& chunk, double* log_strength) const {
   if (wander_.slot == WanderSlot::strength_in_rate) {
     for (std::size_t p = 0; p < chunk.count; ++p) {
-      double squares = 0.0;
-      for (const auto& component : chunk.strain_rate) squares += component[p] * component[p];
-      log_strength[p] += wander_(0.5 * std::log(squares));
+      log_strength[p] += wander_(0.5 * std::log(squared_rate(chunk, p)));
     }
   } else if (wander_.slot == WanderSlot::strength_in_height) {
     for (std::size_t p = 0; p < chunk.count; ++p) log_strength[p] += q.log_strength[chunk.begin + p];
