@@ -20,17 +20,25 @@ namespace {
 
 constexpr std::size_t kPlaces = 24;  // along an outline
 constexpr int kManyPoints = 9;       // a cell
-constexpr double kNudge = 3e-3;      // of I_v: it moves outlines by some hundredths of a millimetre
+// What tests leave open of the material. To first order a fit follows such a change; what it cannot follow is
+// a jump: a column that topples beyond some C_1.
+constexpr double kViscosityNudge = 0.03;  // of I_v, relative
+constexpr double kC1Nudge = 0.005;
+// Of incompressible water's difference three quarters; the time step is halved.
+constexpr double kStifferWater = 4.0;
 
 /// A study's numerics changed.
 struct Change {
   int more_cells = 0;  ///< across the radius
   bool more_points = false;
+  bool stiffer_water = false;
 };
+/// Variance of one more draw over the mean square of as many, and of the wider one that counts as another.
+constexpr double kStudent = (kNumericalVariants + 1.0) / (kNumericalVariants - 1.0);
 using Changes = std::array<Change, kNumericalVariants>;
-constexpr Changes kChanges{{{1, false}, {2, false}, {0, true}}};
+constexpr Changes kChanges{{{1}, {2}, {0, true}, {0, true, true}}};
 /// Of a reference, which is as fine as can be paid for: larger cells, which cost less.
-constexpr Changes kReferenceChanges{{{-1, false}, {-2, false}, {0, true}}};
+constexpr Changes kReferenceChanges{{{-1}, {-2}, {0, true}, {0, true, true}}};
 
 int cells_of(const mpm::SlumpSetup& setup) {
   return static_cast<int>(std::max(1.0, std::round(0.5 * setup.mould.diameter / setup.numerics.cell_size)));
@@ -39,12 +47,16 @@ int cells_of(const mpm::SlumpSetup& setup) {
 mpm::SlumpSetup changed(mpm::SlumpSetup setup, const Change& change) {
   setup.numerics.cell_size = 0.5 * setup.mould.diameter / std::max(1, cells_of(setup) + change.more_cells);
   if (change.more_points) setup.numerics.points_per_cell = kManyPoints;
+  if (change.stiffer_water) setup.numerics.water_bulk_modulus *= kStifferWater;
   return setup;
 }
 
 std::string name_of(const Change& change, const mpm::SlumpSetup& setup) {
   if (change.more_points) {
-    return fmt::format("{} points a cell instead of {}", kManyPoints, setup.numerics.points_per_cell);
+    const std::string points =
+        fmt::format("{} points a cell instead of {}", kManyPoints, setup.numerics.points_per_cell);
+    return change.stiffer_water ? fmt::format("{}, water {:g} times as stiff", points, kStifferWater)
+                                : points;
   }
   return fmt::format("{} cells across the radius instead of {}", cells_of(setup) + change.more_cells,
                      cells_of(setup));
@@ -112,7 +124,7 @@ double rms_of(const std::vector<double>& values) {
 /// What the differences of one test say, outline by outline.
 struct OfTest {
   std::vector<Moments> variants;  ///< when its numerics change
-  std::vector<Moments> nudges;    ///< when its material hardly does
+  std::vector<Moments> bends;     ///< when its material changes to either side, beyond first order
 };
 
 /// What the differences of tests say.
@@ -146,12 +158,15 @@ class Differences {
       before = std::move(now);
     }
   }
-  /// Between two runs of a test whose material is nearly the same.
-  void add_nudge(std::size_t test, const mpm::SlumpResult& base, const mpm::SlumpResult& nudged) {
-    std::vector<Moments>& own = of_tests_[test].nudges;
+  /// Between a run of a test and the mean of two whose material lies as far to either side.
+  void add_bend(std::size_t test, const mpm::SlumpResult& base, const mpm::SlumpResult& less,
+                const mpm::SlumpResult& more) {
+    std::vector<Moments>& own = of_tests_[test].bends;
     own.resize(base.outlines.size());
     for (std::size_t k = 0; k < base.outlines.size(); ++k) {
-      for (const double d : distances_between(base.outlines[k], nudged.outlines[k])) own[k].add(d);
+      const std::vector<double> below = distances_between(base.outlines[k], less.outlines[k]);
+      const std::vector<double> above = distances_between(base.outlines[k], more.outlines[k]);
+      for (std::size_t i = 0; i < below.size(); ++i) own[k].add(0.5 * (below[i] + above[i]));
     }
   }
 
@@ -167,7 +182,7 @@ class Differences {
   }
 
   /// That of a test: what numerics do to each of its outlines, with what they do to the test and to all tests
-  /// as one variant more each, and what a nudge does.
+  /// as one variant more each, and how far it bends.
   [[nodiscard]] experiments::SharedError error_of(std::size_t test) const {
     experiments::SharedError own = error();
     const OfTest& of = of_tests_[test];
@@ -177,8 +192,8 @@ class Differences {
     for (const Moments& outline : of.variants) whole += outline;
     const double pooled = shrunk(whole, all.mean_square());
     for (std::size_t k = 0; k < of.variants.size(); ++k) {
-      const double nudged = k < of.nudges.size() ? of.nudges[k].mean_square() : 0.0;
-      own.sizes.push_back(std::sqrt(shrunk(of.variants[k], pooled) + nudged));
+      const double bent = k < of.bends.size() ? of.bends[k].mean_square() : 0.0;
+      own.sizes.push_back(std::sqrt(kStudent * shrunk(of.variants[k], pooled) + bent));
     }
     return own;
   }
@@ -198,23 +213,42 @@ class Differences {
 
 using Run = tl::expected<mpm::SlumpResult, mpm::RunFailure>;
 
-/// Adds what simulations as fits make them differ by where the viscosity index is a hair larger or smaller:
-/// a column that topples does so here or there. `at_best` are those by the best numerics of each test.
-tl::expected<void, FitFailure> nudge(const std::vector<const datasets::SlumpTest*>& tests,
-                                     std::span<const Run> at_best, const effects::Values<double>& effects,
-                                     const model::Parameters<double>& parameters,
-                                     const experiments::Simulate& simulate, int threads,
-                                     Differences& differences) {
-  constexpr std::array kFactors{1.0, 1.0 + kNudge, 1.0 - kNudge};
-  std::vector<std::optional<Run>> runs(tests.size() * kFactors.size());
+/// A constant of the material, changed to either side.
+struct Nudge {
+  model::ParameterId id;
+  double size;
+};
+
+/// The material itself, and it with each constant less and more; nothing where that is none.
+std::vector<std::optional<model::Parameters<double>>> nudged(const model::Parameters<double>& parameters) {
+  const std::array nudges{Nudge{model::ParameterId::I_v, kViscosityNudge * parameters.I_v()},
+                          Nudge{model::ParameterId::C_1, kC1Nudge}};
+  std::vector<std::optional<model::Parameters<double>>> all{parameters};
+  for (const Nudge& nudge : nudges) {
+    for (const double side : {-1.0, 1.0}) {
+      model::ParameterValues<double> values = parameters.values();
+      values[nudge.id] += side * nudge.size;
+      const auto there = model::Parameters<double>::create(values);
+      all.push_back(there ? std::optional(*there) : std::nullopt);
+    }
+  }
+  return all;
+}
+
+/// Adds how far simulations as fits make them bend where the material changes to either side. `at_best` are
+/// those by the best numerics of each test.
+tl::expected<void, FitFailure> bend(const std::vector<const datasets::SlumpTest*>& tests,
+                                    std::span<const Run> at_best, const effects::Values<double>& effects,
+                                    const model::Parameters<double>& parameters,
+                                    const experiments::Simulate& simulate, int threads,
+                                    Differences& differences) {
+  const auto materials = nudged(parameters);
+  std::vector<std::optional<Run>> runs(tests.size() * materials.size());
   parallel_for(runs.size(), threads, [&](std::size_t i) {
-    const datasets::SlumpTest& test = *tests[i / kFactors.size()];
-    const double factor = kFactors[i % kFactors.size()];
-    if (factor == 1.0 && !test.reference) return;  // it is one of at_best
-    auto values = parameters.values();
-    values[model::ParameterId::I_v] *= factor;
-    runs[i] = simulate(test.name, *model::Parameters<double>::create(values),
-                       datasets::with_effects(test.setup, effects));
+    const datasets::SlumpTest& test = *tests[i / materials.size()];
+    const std::size_t k = i % materials.size();
+    if (!materials[k] || (k == 0 && !test.reference)) return;  // else it is one of at_best
+    runs[i] = simulate(test.name, *materials[k], datasets::with_effects(test.setup, effects));
   });
   for (const auto& run : runs) {
     if (run && !*run && run->error().status == mpm::RunStatus::interrupted) {
@@ -222,10 +256,11 @@ tl::expected<void, FitFailure> nudge(const std::vector<const datasets::SlumpTest
     }
   }
   for (std::size_t t = 0; t < tests.size(); ++t) {
-    const std::optional<Run>* own = &runs[t * kFactors.size()];
+    const std::optional<Run>* own = &runs[t * materials.size()];
     const Run& base = own[0] ? *own[0] : at_best[t];
-    for (std::size_t k = 1; k < kFactors.size(); ++k) {
-      if (base && *own[k]) differences.add_nudge(t, *base, **own[k]);
+    for (std::size_t k = 1; k < materials.size(); k += 2) {
+      const bool there = base && own[k] && *own[k] && own[k + 1] && *own[k + 1];
+      if (there) differences.add_bend(t, *base, **own[k], **own[k + 1]);
     }
   }
   return {};
@@ -260,9 +295,9 @@ tl::expected<SimulationError, FitFailure> measure_simulation_error(
       return tl::unexpected(FitFailure{"interrupted", true});
     last_failure = run.error().message;
   }
-  const auto nudged =
-      nudge(tests, std::span(runs).subspan(bases), study.effects, parameters, simulate, threads, differences);
-  if (!nudged) return tl::unexpected(nudged.error());
+  const auto bent =
+      bend(tests, std::span(runs).subspan(bases), study.effects, parameters, simulate, threads, differences);
+  if (!bent) return tl::unexpected(bent.error());
   bool any = false;
   for (std::size_t variant = 0; variant < kVariants; ++variant) {
     NumericalVariant found;

@@ -1,5 +1,5 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-// How far a simulated outline can be trusted: the same tests with other cells and points.
+// How far a simulated outline can be trusted: the same tests with other cells, points and water.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,9 @@
 namespace isotach::calibration {
 
 /// In how many ways the numerics are changed.
-inline constexpr std::size_t kNumericalVariants = 3;
+inline constexpr std::size_t kNumericalVariants = 4;
+/// How many simulations of a test tell how far they bend when its material changes.
+inline constexpr std::size_t kNudgedSimulations = 4;
 
 /// Simulations of all tests with their numerics changed in one way.
 struct NumericalVariant {
@@ -41,15 +43,16 @@ struct SimulationError {
   }
 };
 
-/// Compares outlines of the tests that are fitted with those of one and two cells more across the radius and
-/// of nine points a cell; where the study has reference numerics, with those, one and two cells fewer. The
-/// differences of all variants, which share neither grid nor points with the base, are taken as they are for
-/// the error: half of their variance may be the variants' own, but an error common to all of them is not
-/// seen. Each outline's own differences count for its error, with those of its test and of all tests as one
-/// variant more each: a mould that is lifted slowly leaves more to the numerics than one that is lifted at
-/// once. To that comes what a change of I_v by some thousandths does to simulations with the study's
-/// numerics: little, but for mud that topples. Correlations are those of neighbouring places and times.
-/// Nothing of the data is used.
+/// Compares outlines of the tests that are fitted with those of one and two cells more across the radius, of
+/// nine points a cell, and of these in water four times as stiff; where the study has reference numerics,
+/// with those, one and two cells fewer. The differences of all variants are taken as they are for the error:
+/// half of their variance may be the variants' own, but an error common to all of them is not seen. Each
+/// outline's own differences count for its error, with those of its test and of all tests as one variant more
+/// each: a mould that is lifted slowly leaves more to the numerics than one that is lifted at once. So few
+/// tell little of how large the next may be; its variance is that of Student's distribution. To that comes
+/// how far simulations with the study's numerics bend when I_v or C_1 change by about what tests leave of
+/// them open, half of a second difference: little, but for mud that topples. Correlations are those of
+/// neighbouring places and times. Nothing of the data is used.
 [[nodiscard]] tl::expected<SimulationError, FitFailure> measure_simulation_error(
     const datasets::Study& study, const model::Parameters<double>& parameters,
     const experiments::Simulate& simulate, int threads);

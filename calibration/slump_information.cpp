@@ -59,7 +59,7 @@ mpm::SlumpResult at_times(const mpm::SlumpResult& run, const std::vector<double>
 }  // namespace
 
 std::size_t simulations_around(std::size_t material_coordinates) {
-  return 1 + kNumericalVariants + 2 * material_coordinates;
+  return 1 + kNumericalVariants + kNudgedSimulations + 2 * material_coordinates;
 }
 
 tl::expected<SimulatedSetups, FitFailure> simulate_around(

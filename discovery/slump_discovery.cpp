@@ -26,8 +26,8 @@ using calibration::FitFailure;
 using Effects = std::vector<const effects::Effect*>;
 
 constexpr int kBaseEvaluations = 7;
-constexpr int kTrialEvaluations = 4;
-constexpr int kCorrectedEvaluations = 2;
+constexpr int kTrialEvaluations = 6;
+constexpr int kCorrectedEvaluations = 3;
 constexpr double kShapeMove = 0.4;  // of a logarithm, for the difference by a shape
 
 class SlumpSearch {
@@ -59,6 +59,8 @@ class SlumpSearch {
       if (auto failure = try_best()) return tl::unexpected(*failure);
       weigh(found_, null_);
       if (auto failure = try_pairs()) return tl::unexpected(*failure);
+      weigh(found_, null_);
+      if (auto failure = try_alone_again()) return tl::unexpected(*failure);
       weigh(found_, null_);
       auto wandering = let_wander(basis_, found_.base.candidate, common_,
                                   [this](double done) { tell(0.8 + 0.1 * done, "one slot at a time"); });
@@ -306,7 +308,8 @@ class SlumpSearch {
     return std::nullopt;
   }
 
-  std::optional<FitFailure> try_set(const Effects& added) {
+  /// The base with effects, none of them there yet; columns of shapes are zero.
+  [[nodiscard]] SlumpCandidate beginning(const Effects& added) const {
     const SlumpCandidate& base = found_.base.candidate;
     SlumpCandidate candidate = slump_candidate(basis_, added);
     candidate.at.coordinates = continued(candidate, base.at.coordinates, 0.0);
@@ -315,17 +318,21 @@ class SlumpSearch {
     candidate.at.jacobian =
         Eigen::MatrixXd::Zero(base.at.jacobian.rows(), static_cast<Eigen::Index>(coordinates.size()));
     candidate.at.jacobian.leftCols(base.at.jacobian.cols()) = base.at.jacobian;
-    bool shapes = false;
     for (std::size_t k = base.at.coordinates.size(); k < coordinates.size(); ++k) {
       if (coordinates[k].effect->index == 0) {
         candidate.at.jacobian.col(static_cast<Eigen::Index>(k)) =
             signature(coordinates[k].effect->effect)->change;
-      } else {
-        shapes = true;
       }
     }
+    return candidate;
+  }
+
+  std::optional<FitFailure> try_set(const Effects& added) {
+    SlumpCandidate candidate = beginning(added);
     if (auto failure = minimise(candidate, kTrialEvaluations)) return failure;
-    if (shapes) {
+    const auto& coordinates = candidate.problem->parametrisation().coordinates();
+    if (std::any_of(coordinates.begin(), coordinates.end(),
+                    [](const auto& one) { return one.effect && one.effect->index > 0; })) {
       if (auto failure = learn_shapes(candidate)) return failure;
       if (auto failure = minimise(candidate, kTrialEvaluations)) return failure;
     }
@@ -379,6 +386,32 @@ class SlumpSearch {
       tell(0.7 + 0.1 * static_cast<double>(k) / static_cast<double>(pairs.size()),
            fmt::format("fit with {} and {}", pairs[k][0]->name, pairs[k][1]->name));
       if (auto failure = try_set(pairs[k])) return failure;
+    }
+    return std::nullopt;
+  }
+
+  /// Fits each effect of a pair that stands first alone once more, from the pair's answer: beside one whose
+  /// search stopped short the other would look needed.
+  std::optional<FitFailure> try_alone_again() {
+    const SlumpCandidate pair = found_.trials.front().candidate;
+    if (pair.added.size() < 2) return std::nullopt;
+    for (const effects::Effect* effect : pair.added) {
+      SlumpCandidate alone = beginning({effect});
+      alone.at.coordinates = matched(alone.problem->parametrisation().coordinates(),
+                                     pair.problem->parametrisation().coordinates(), pair.at.coordinates);
+      auto residuals = residuals_at(alone, alone.at.coordinates);
+      if (!residuals) {
+        if (residuals.error().interrupted) return interrupted();
+        continue;
+      }
+      alone.at.residuals = std::move(*residuals);
+      if (auto failure = learn_shapes(alone)) return failure;
+      if (auto failure = correct(alone, kTrialEvaluations)) return failure;
+      if (auto failure = minimise(alone, kTrialEvaluations)) return failure;
+      for (SlumpTrial& trial : found_.trials) {
+        const bool better = alone.chi_squared < trial.candidate.chi_squared;
+        if (trial.candidate.added == alone.added && better) trial.candidate = alone;
+      }
     }
     return std::nullopt;
   }

@@ -250,11 +250,10 @@ void add_grounds(Page& page, const NextTest& next) {
   page.section("What the numbers rest on");
   page.paragraph(fmt::format(
       "The study's material is taken for the present fit, and all tests are linearised there. Found along "
-      "with "
-      "I_v and C_1: {}, as the study's tests hold them, and by what other cells and points would do to all "
-      "outlines, each change of the numerics with an amplitude of unit variance. {}What is not in this list, "
-      "as "
-      "the friction angle and the void ratios, is taken as known. Whether the model is right is not asked.",
+      "with I_v and C_1: {}, as the study's tests hold them, and by what other cells, points and water would "
+      "do to all outlines, each change of the numerics with an amplitude of unit variance. {}What is not in "
+      "this list, as the friction angle and the void ratios, is taken as known. Whether the model is right "
+      "is not asked.",
       nuisances_of(next),
       next.reference_rate > 0.0
           ? fmt::format(

@@ -12,6 +12,7 @@
 #include "bench/outline_noise.hpp"
 #include "bench/synthetic_oedometer.hpp"
 #include "calibration/fit_slump.hpp"
+#include "calibration/simulation_error.hpp"
 #include "datasets/slump_effects.hpp"
 #include "discovery/linear_model.hpp"
 
@@ -42,15 +43,15 @@ void set_cells(mpm::Numerics& numerics, const SlumpTest& test, int cells) {
   numerics.cell_size = 0.5 * test.setup.mould.diameter / cells;
 }
 
-/// The material that datasets/mud-a states, I_v times a factor within +-25 % and another C_1.
+/// The material that datasets/mud-a states, I_v and C_1 times a factor within +-25 % each.
 model::Parameters<double> random_truth(const model::Parameters<double>& stated, std::mt19937_64& random) {
   model::ParameterValues<double> values = stated.values();
-  values[ParameterId::I_v] *= 0.75 + 0.5 * uniform(random);
-  values[ParameterId::C_1] = 0.03 + 0.1 * uniform(random);
+  for (const ParameterId id : {ParameterId::I_v, ParameterId::C_1})
+    values[id] *= 0.75 + 0.5 * uniform(random);
   return *model::Parameters<double>::create(values);
 }
 
-/// Three tests of datasets/mud-a and one held out, without what was measured.
+/// Three tests of datasets/mud-a and one held out, without what was measured, by the numerics of fits.
 std::vector<SlumpTest> blank_tests(const datasets::Study& from, const OutlineNoise& noise) {
   std::vector<SlumpTest> tests;
   for (const std::string name : {"slump-1", "slump-2", "slump-3", "slump-4"}) {
@@ -63,7 +64,9 @@ std::vector<SlumpTest> blank_tests(const datasets::Study& from, const OutlineNoi
     const double all = std::hypot(noise.reading, noise.shared);
     test.noise = {all, all, noise.shared};
     test.hold_out = name == "slump-4";
-    test.reference.reset();
+    set_cells(test.setup.numerics, test, kFitterCells);
+    test.reference = test.setup.numerics;
+    set_cells(*test.reference, test, kReferenceCells);
     tests.push_back(std::move(test));
   }
   return tests;
@@ -112,14 +115,27 @@ class Generator {
   }
   [[nodiscard]] const std::vector<SlumpTest>& tests() const { return tests_; }
 
+  /// The fitted tests as they were measured, with what discovery's simulations are unsure of in their
+  /// covariance.
+  [[nodiscard]] std::vector<std::shared_ptr<const experiments::SlumpExperiment>> experiments(
+      const effects::Values<double>& effects, const calibration::SimulationError& error) const {
+    std::vector<std::shared_ptr<const experiments::SlumpExperiment>> all;
+    for (std::size_t i = 0; i < tests_.size(); ++i) {
+      if (tests_[i].hold_out) continue;
+      all.push_back(std::make_shared<experiments::SlumpExperiment>(
+          tests_[i], experiments::SlumpModel{
+                         .simulate = simulate, .simulation_error = error.of(i), .effects = effects}));
+    }
+    return all;
+  }
+
   /// Decorrelated distances of the fitted tests' outlines, as they were measured, from those with effects.
   [[nodiscard]] std::optional<Eigen::VectorXd> seen(const effects::Values<double>& effects,
-                                                    const model::Parameters<double>& parameters) const {
+                                                    const model::Parameters<double>& parameters,
+                                                    const calibration::SimulationError& error) const {
     std::vector<double> all;
-    for (const SlumpTest& test : tests_) {
-      if (test.hold_out) continue;
-      const experiments::SlumpExperiment experiment(test, {.simulate = simulate, .effects = effects});
-      const auto values = experiment.predict(parameters, experiment.local_values());
+    for (const auto& experiment : experiments(effects, error)) {
+      const auto values = experiment->predict(parameters, experiment->local_values());
       if (!values) return std::nullopt;
       all.insert(all.end(), values->begin(), values->end());
     }
@@ -131,26 +147,62 @@ class Generator {
   model::Parameters<double> truth_;
 };
 
-/// What the base can do: derivatives by ln I_v and C_1, in units of what is known of them, with the rows that
-/// this knowledge is.
-std::optional<discovery::Projection> base_of(const Generator& generator,
-                                             const model::Parameters<double>& truth,
-                                             const Eigen::VectorXd& unchanged) {
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(unchanged.size() + 2, 2);
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    model::ParameterValues<double> moved = truth.values();
-    if (k == 0) {
-      moved[ParameterId::I_v] *= std::exp(kKnownViscosity);
-    } else {
-      moved[ParameterId::C_1] += kKnownC1;
+/// How plainly effects show in slump tests: by the covariance of their outlines and of discovery's
+/// simulations, freed of what the base's parameters and errors that all tests share can do.
+class SlumpVisibility {
+ public:
+  /// Nothing where the truth cannot be simulated.
+  static std::optional<SlumpVisibility> at(const Generator& generator, const model::Parameters<double>& truth,
+                                           const calibration::SimulationError& error) {
+    auto unchanged = generator.seen({}, truth, error);
+    if (!unchanged) return std::nullopt;
+    const Eigen::MatrixXd shared = calibration::directions_of(error, generator.experiments({}, error));
+    const Eigen::Index rows = unchanged->size();
+    // with rows that say how far each column may go: one standard error of what is known
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows + 2 + shared.cols(), 2 + shared.cols());
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      model::ParameterValues<double> moved = truth.values();
+      if (k == 0) {
+        moved[ParameterId::I_v] *= std::exp(kKnownViscosity);
+      } else {
+        moved[ParameterId::C_1] += kKnownC1;
+      }
+      const auto there = generator.seen({}, *model::Parameters<double>::create(moved), error);
+      if (!there) return std::nullopt;
+      columns.col(k).head(rows) = *there - *unchanged;
     }
-    const auto there = generator.seen({}, *model::Parameters<double>::create(moved));
-    if (!there) return std::nullopt;
-    jacobian.col(k).head(unchanged.size()) = *there - unchanged;
-    jacobian(unchanged.size() + k, k) = 1.0;
+    if (shared.cols() > 0) columns.topRightCorner(rows, shared.cols()) = shared;
+    columns.bottomRows(columns.cols()).setIdentity();
+    return SlumpVisibility(generator, truth, error, std::move(*unchanged), columns);
   }
-  return discovery::Projection(jacobian);
-}
+
+  /// Signal to noise; nothing where it cannot be simulated.
+  [[nodiscard]] std::optional<double> of(const effects::Values<double>& effects) const {
+    const auto there = generator_->seen(effects, truth_, *error_);
+    if (!there) return std::nullopt;
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(rows_);
+    change.head(there->size()) = *there - unchanged_;
+    return base_.freed(change).norm();
+  }
+
+ private:
+  SlumpVisibility(const Generator& generator, const model::Parameters<double>& truth,
+                  const calibration::SimulationError& error, Eigen::VectorXd unchanged,
+                  const Eigen::MatrixXd& columns)
+      : generator_(&generator),
+        truth_(truth),
+        error_(&error),
+        unchanged_(std::move(unchanged)),
+        rows_(columns.rows()),
+        base_(columns) {}
+
+  const Generator* generator_;
+  model::Parameters<double> truth_;
+  const calibration::SimulationError* error_;
+  Eigen::VectorXd unchanged_;
+  Eigen::Index rows_;
+  discovery::Projection base_;
+};
 
 /// Moves each point along its outline's normal by its error, outwards.
 void add_noise(SlumpTest& test, const OutlineNoise& noise, std::mt19937_64& random) {
@@ -210,20 +262,16 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
   if (one.effect != nullptr) {
     Generator quick(made.study.slump_tests, truth, set_to_seek);
     if (auto failure = quick.measure({})) return tl::unexpected(*failure);
-    const auto unchanged = quick.seen({}, truth);
-    const auto base = unchanged ? base_of(quick, truth, *unchanged) : std::nullopt;
-    if (!base) return tl::unexpected(std::string("no derivatives at the truth"));
+    const auto error = calibration::measure_simulation_error(made.study, truth, simulate, 1);
+    if (!error) return tl::unexpected(error.error().message);
+    const auto visibility = SlumpVisibility::at(quick, truth, *error);
+    if (!visibility) return tl::unexpected(std::string("no derivatives at the truth"));
     const auto with = [&](double amplitude) {
       return effects::Values<double>::create({effects::with_amplitude(*one.effect, amplitude)});
     };
     const auto shown = [&](double amplitude) -> std::optional<double> {
       const auto on = with(amplitude);
-      if (!on) return std::nullopt;
-      const auto there = quick.seen(*on, truth);
-      if (!there) return std::nullopt;
-      Eigen::VectorXd change = Eigen::VectorXd::Zero(unchanged->size() + 2);
-      change.head(unchanged->size()) = *there - *unchanged;
-      return base->freed(change).norm();
+      return on ? visibility->of(*on) : std::nullopt;
     };
     const effects::EffectParameter& info = one.effect->parameters[0];
     const Sought sought = seek_visibility(shown, info.typical_si(), info.upper_si(), one.visibility);
@@ -239,9 +287,6 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
     SlumpTest& test = made.study.slump_tests[i];
     test.outlines = generator.tests()[i].outlines;
     add_noise(test, noise, random);
-    set_cells(test.setup.numerics, test, kFitterCells);
-    test.reference = test.setup.numerics;
-    set_cells(*test.reference, test, kReferenceCells);
   }
   // oedometer tests know I_v and C_1 so well, and the rest exactly
   model::ParameterValues<double> known = truth.values();
