@@ -203,7 +203,7 @@ tl::expected<OptimiserResult, FitFailure> search_by_routes(const Problem& proble
 }
 
 constexpr int kMostCorrections = 3;
-constexpr double kCorrectionStays = 0.05;  // of a logarithm: corrections change by far less than simulations
+constexpr double kCorrectionStays = 0.02;  // of a logarithm: corrections change by far less than simulations
 
 }  // namespace
 
