@@ -6,16 +6,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <filesystem>
-#include <fstream>
 
 #include "bench/discovery/caught.hpp"
 #include "bench/discovery/plan.hpp"
+#include "bench/discovery/plan_run.hpp"
 #include "bench/discovery/rates.hpp"
 #include "bench/discovery/record.hpp"
 #include "bench/discovery/slump_study.hpp"
 #include "bench/discovery/wilson.hpp"
-#include "calibration/parallel.hpp"
 
 namespace {
 
@@ -153,42 +153,18 @@ std::string page(const std::vector<Record>& records, std::size_t planned) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string folder;
-  std::uint64_t seed = kReported;
-  std::vector<std::size_t> numbers;
-  double minutes = std::numeric_limits<double>::infinity();
-  int threads = 1;
+  bench::PlanRun run;
+  run.seed = kReported;
   CLI::App line("Makes slump studies with hidden effects and counts how often discovery is right");
-  line.add_option("folder", folder, "Where the journal and the results are kept")->required();
-  line.add_option("--seed", seed, "Seed of all studies")->capture_default_str();
-  line.add_option("--numbers", numbers, "Only these of the plan");
-  line.add_option("--minutes", minutes, "Begin no study after so long");
-  line.add_option("--threads", threads, "Studies at once")->capture_default_str()->check(CLI::PositiveNumber);
+  bench::add_options(line, run);
   CLI11_PARSE(line, argc, argv);
   try {
+    const std::filesystem::path folder = run.folder;
     std::filesystem::create_directories(folder);
-    bench::Journal journal(std::filesystem::path(folder) / "slump-journal.jsonl");
+    bench::Journal journal(folder / "slump-journal.jsonl");
     const auto plan = bench::slump_plan();
-    std::vector<const bench::SlumpCase*> left;
-    for (const bench::SlumpCase& one : plan) {
-      const bool wanted =
-          numbers.empty() || std::find(numbers.begin(), numbers.end(), one.number) != numbers.end();
-      if (wanted && !journal.has(one.number, seed)) left.push_back(&one);
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    calibration::parallel_for(left.size(), threads, [&](std::size_t k) {
-      const std::chrono::duration<double, std::ratio<60>> spent = std::chrono::steady_clock::now() - begin;
-      if (spent.count() > minutes) return;
-      const Record record = run_case(*left[k], seed);
-      journal.add(record);
-      fmt::print("{} {} {:g} sigma: {} {} {:.1f} s {}\n", record.number, fmt::join(record.hidden, " + "),
-                 record.wanted, record.state == "done" ? bench::outcome_of(record) : record.state,
-                 fmt::join(record.first, " + "), record.seconds, record.why);
-      std::fflush(stdout);
-    });
-    std::ofstream stream(std::filesystem::path(folder) / "slump-results.md");
-    stream << page(journal.of(seed), plan.size());
-    if (!stream.flush()) throw std::runtime_error("cannot write slump-results.md");
+    bench::run_plan(plan, run, journal, run_case);
+    bench::write_page(folder / "slump-results.md", page(journal.of(run.seed), plan.size()));
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;
