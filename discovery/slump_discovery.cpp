@@ -91,23 +91,19 @@ class SlumpSearch {
     if (!error) return error.error();
     basis_.error = std::move(*error);
     tell(0.15, "fit of the base");
-    SlumpCandidate bare = slump_candidate(basis_, {});
-    const std::vector<double> start = bare.problem->parametrisation().start();
-    auto corrections = corrections_at(bare, start);
+    if (options_.knowledge) basis_.priors = options_.knowledge->priors;
+    SlumpCandidate base = slump_candidate(basis_, {});
+    const std::vector<double> start = base.problem->parametrisation().start();
+    auto corrections = corrections_at(base, start);
     if (!corrections) return corrections.error();
     basis_.corrections = std::move(*corrections);
-    bare = slump_candidate(basis_, {});
-    const auto at = bare.problem->linearise(start);
-    if (!at) return FitFailure{at.error().message, at.error().interrupted};
-    know(bare, *at);
-    SlumpCandidate base = slump_candidate(basis_, {});
+    base = slump_candidate(basis_, {});
     auto common = common_error(basis_, base.tests);
     if (!common) return common.error();
     common_ = std::move(*common);
-    base.at = {start, at->residuals, at->jacobian};
-    append_priors(base);
-    base.at.residuals = common_.whitened(base.at.residuals);
-    base.at.jacobian = common_.whitened(base.at.jacobian);
+    auto at = base.problem->linearise(start);
+    if (!at) return FitFailure{at.error().message, at.error().interrupted};
+    base.at = {start, common_.whitened(std::move(at->residuals)), common_.whitened(std::move(at->jacobian))};
     if (auto failure = minimise(base, kBaseEvaluations)) return failure;
     if (auto failure = correct(base, kTrialEvaluations)) return failure;
     for (std::size_t i = 0; i < base.tests.size() && basis_.corrections.any(); ++i) {
@@ -173,43 +169,6 @@ class SlumpSearch {
     auto residuals = candidate.problem->residuals(x);
     if (!residuals) return tl::unexpected(residuals.error());
     return Eigen::VectorXd(common_.whitened(std::move(*residuals)));
-  }
-
-  /// Oedometer tests know the material no better than simulations can tell it: their errors, and by how much
-  /// other cells would move the coordinates.
-  void know(const SlumpCandidate& bare, const calibration::Linearised& at) {
-    if (!options_.knowledge) return;
-    const auto shifts =
-        calibration::numerical_shifts(at, {}, calibration::fitted_of(bare.tests), basis_.error);
-    const Eigen::MatrixXd numerics = calibration::numerical_covariance(shifts, at.jacobian.cols());
-    basis_.priors = options_.knowledge->priors;
-    const auto& coordinates = bare.problem->parametrisation().coordinates();
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      if (!coordinates[k].id) continue;
-      auto& prior = basis_.priors[static_cast<std::size_t>(*coordinates[k].id)];
-      if (!prior) continue;
-      const auto i = static_cast<Eigen::Index>(k);
-      const double slope = coordinates[k].logarithmic ? prior->mean : 1.0;
-      prior->std_error = std::hypot(prior->std_error, slope * std::sqrt(numerics(i, i)));
-    }
-  }
-
-  /// Rows of priors below residuals that were simulated without.
-  void append_priors(SlumpCandidate& base) const {
-    const auto& coordinates = base.problem->parametrisation().coordinates();
-    const auto values = static_cast<Eigen::Index>(base.problem->value_count());
-    const auto rows = static_cast<Eigen::Index>(base.problem->residual_count());
-    base.at.residuals.conservativeResize(rows);
-    base.at.jacobian.conservativeResize(rows, Eigen::NoChange);
-    Eigen::Index row = values;
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      if (!coordinates[k].prior) continue;
-      base.at.residuals[row] =
-          (base.at.coordinates[k] - coordinates[k].prior->mean) / coordinates[k].prior->std_error;
-      base.at.jacobian.row(row).setZero();
-      base.at.jacobian(row, static_cast<Eigen::Index>(k)) = 1.0 / coordinates[k].prior->std_error;
-      ++row;
-    }
   }
 
   std::optional<std::string> cannot_have(const effects::Effect& effect) const {
