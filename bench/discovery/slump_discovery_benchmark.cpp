@@ -139,7 +139,7 @@ std::string page(const std::vector<Record>& records, std::size_t planned) {
       "s |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const Record& r : records) {
-    const std::string outcome = done(r) ? bench::outcome_of(r) : r.state;
+    const std::string outcome = bench::outcome_of(r);
     text += fmt::format("| {} | {:g} | {:g} | {}{} | {:.2f} | {:.2f} | {} | {} | {:.0f} |\n",
                         r.hidden.empty() ? "nothing" : r.hidden.front(), r.wanted, 1e3 * r.noise, outcome,
                         outcome == "ambiguous" && holds_truth(r) ? ", holds it" : "", r.gap_before,
