@@ -286,16 +286,25 @@ class SlumpSearch {
     return candidate;
   }
 
+  /// From a candidate without corrections of its own to the least nearby of the one that has them.
+  std::optional<FitFailure> settle(SlumpCandidate& candidate) const {
+    if (auto failure = minimise(candidate, kTrialEvaluations)) return failure;
+    return correct(candidate, kCorrectedEvaluations);
+  }
+
+  [[nodiscard]] static bool has_shapes(const SlumpCandidate& candidate) {
+    const auto& coordinates = candidate.problem->parametrisation().coordinates();
+    return std::any_of(coordinates.begin(), coordinates.end(),
+                       [](const auto& one) { return one.effect && one.effect->index > 0; });
+  }
+
   std::optional<FitFailure> try_set(const Effects& added) {
     SlumpCandidate candidate = beginning(added);
-    if (auto failure = minimise(candidate, kTrialEvaluations)) return failure;
-    const auto& coordinates = candidate.problem->parametrisation().coordinates();
-    if (std::any_of(coordinates.begin(), coordinates.end(),
-                    [](const auto& one) { return one.effect && one.effect->index > 0; })) {
-      if (auto failure = learn_shapes(candidate)) return failure;
+    if (has_shapes(candidate)) {
       if (auto failure = minimise(candidate, kTrialEvaluations)) return failure;
+      if (auto failure = learn_shapes(candidate)) return failure;
     }
-    if (auto failure = correct(candidate, kCorrectedEvaluations)) return failure;
+    if (auto failure = settle(candidate)) return failure;
     SlumpTrial trial;
     trial.candidate = std::move(candidate);
     found_.trials.push_back(std::move(trial));
@@ -365,8 +374,7 @@ class SlumpSearch {
       }
       alone.at.residuals = std::move(*residuals);
       if (auto failure = learn_shapes(alone)) return failure;
-      if (auto failure = correct(alone, kTrialEvaluations)) return failure;
-      if (auto failure = minimise(alone, kTrialEvaluations)) return failure;
+      if (auto failure = settle(alone)) return failure;
       for (SlumpTrial& trial : found_.trials) {
         const bool better = alone.chi_squared < trial.candidate.chi_squared;
         if (trial.candidate.added == alone.added && better) trial.candidate = alone;
