@@ -70,7 +70,7 @@ std::optional<FitFailure> find_answer(Problem& problem, const std::vector<double
   constexpr double kForGood = 1e-12;
   if (!minimise(start, kForNoise)) return FitFailure{"interrupted", true};
   for (const double function_tolerance : {kForNoise, kForGood}) {
-    auto noise = fit_noise(problem, fit.result.main.coordinates, parts);
+    auto noise = fit_noise(problem, fit.result.main.coordinates, {parts});
     if (!noise) return FitFailure{"noise: " + noise.error().message};
     fit.noise = std::move(*noise);
     problem.set_weights(fit.noise.weights);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/shared_noise.hpp"
+
 namespace isotach::calibration {
 
 namespace {
@@ -77,6 +79,54 @@ std::vector<Placed> place_channels(const Problem& problem,
   return all;
 }
 
+/// The sum but for some channels.
+Quadratic without(Quadratic sum, const std::vector<Quadratic>& all,
+                  const std::vector<std::size_t>& left_out) {
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (std::find(left_out.begin(), left_out.end(), c) != left_out.end()) continue;
+    sum.information += all[c].information;
+    sum.gradient += all[c].gradient;
+  }
+  return sum;
+}
+
+/// Groups of two channels and more whose noise is estimated and was stated alike.
+std::vector<std::vector<std::size_t>> stated_alike(const std::vector<Placed>& all) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (!all[c].noise.estimated) continue;
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      const ChannelNoise& other = all[group.front()].noise;
+      return other.quantity == all[c].noise.quantity && other.stated_level == all[c].noise.stated_level &&
+             other.stated_floor == all[c].noise.stated_floor;
+    });
+    if (same == groups.end()) {
+      groups.push_back({c});
+    } else {
+      same->push_back(c);
+    }
+  }
+  std::erase_if(groups, [](const auto& group) { return group.size() < 2; });
+  return groups;
+}
+
+/// Gives channels one noise unless their residuals say otherwise.
+void share_noise(std::vector<Placed>& all, const std::vector<std::size_t>& alike, const Quadratic& others,
+                 NoiseParts parts) {
+  std::vector<const Channel*> channels;
+  std::vector<NoiseModel> own;
+  for (const std::size_t c : alike) {
+    channels.push_back(&all[c].channel);
+    own.push_back(all[c].noise.model);
+  }
+  const auto shared = shared_noise(channels, own, others.information, others.gradient, parts);
+  if (!shared) return;
+  for (const std::size_t c : alike) {
+    all[c].noise.model = *shared;
+    all[c].noise.model.effective_count = effective_count(*shared, all[c].channel);
+  }
+}
+
 /// Weights by the noise stated, in the scale that makes the residuals' mean square one: over `degrees` of
 /// them, and no smaller than `least`.
 Whitening by_stated_noise(const Placed& placed, double degrees, double least) {
@@ -97,7 +147,7 @@ Whitening by_stated_noise(const Placed& placed, double degrees, double least) {
 
 tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& problem,
                                                                  const std::vector<double>& x,
-                                                                 NoiseParts parts) {
+                                                                 NoiseKind kind) {
   const auto predictions = problem.predictions(x);
   if (!predictions) return tl::unexpected(predictions.error());
   std::vector<Placed> all = place_channels(problem, *predictions);
@@ -113,15 +163,16 @@ tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& 
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t c = 0; c < all.size(); ++c) {
       if (!all[c].noise.estimated) continue;
-      Quadratic others = priors;
-      for (std::size_t d = 0; d < all.size(); ++d) {
-        if (d == c) continue;
-        others.information += quadratics[d].information;
-        others.gradient += quadratics[d].gradient;
-      }
+      const Quadratic others = without(priors, quadratics, {c});
       all[c].noise.model =
-          estimate_noise(all[c].channel, others.information, others.gradient, all[c].noise.model, parts);
+          estimate_noise(all[c].channel, others.information, others.gradient, all[c].noise.model, kind.parts);
       quadratics[c] = quadratic_of(all[c]);
+    }
+  }
+  if (kind.shared) {
+    for (const std::vector<std::size_t>& alike : stated_alike(all)) {
+      share_noise(all, alike, without(priors, quadratics, alike), kind.parts);
+      for (const std::size_t c : alike) quadratics[c] = quadratic_of(all[c]);
     }
   }
 

@@ -43,10 +43,19 @@ struct NoiseFit {
   std::vector<Remaining> remaining;  ///< of channels that are misfit
 };
 
+/// What the noise of tests may be.
+struct NoiseKind {
+  NoiseParts parts = NoiseParts::lasting;
+  /// Channels whose noise is stated alike were read by one apparatus and have one noise, unless their
+  /// residuals say otherwise (shared_noise).
+  bool shared = false;
+};
+
 /// Restricted maximum likelihood of level, floor and correlation of each channel at x, the others' given, in
 /// turn until they stand still.
-[[nodiscard]] tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(
-    const Problem& problem, const std::vector<double>& x, NoiseParts parts = NoiseParts::lasting);
+[[nodiscard]] tl::expected<NoiseFit, experiments::PredictionFailure> fit_noise(const Problem& problem,
+                                                                               const std::vector<double>& x,
+                                                                               NoiseKind kind = {});
 
 /// The covariance of an answer whose weighted residuals keep the correlations of `noise.remaining`:
 /// C J' S J C, C the `covariance` that independent residuals would have, S theirs.

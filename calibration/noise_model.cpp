@@ -187,13 +187,6 @@ Eigen::VectorXd standard_deviations(const NoiseModel& model, const Channel& chan
   return variance.sqrt();
 }
 
-double effective_count(double rho, double serial_share, const Channel& channel) {
-  const Eigen::Index count = channel.residuals.size();
-  Eigen::VectorXd ones = Eigen::VectorXd::Ones(count);
-  SerialFilter(rho, serial_share, count, channel.chain_starts).apply(ones);
-  return ones.squaredNorm();
-}
-
 /// Standard deviations of a model that is within its ranges, for a channel that is consistent.
 Eigen::VectorXd checked_deviations(const NoiseModel& model, const Channel& channel) {
   require_consistent_noise(channel, channel.known_variance.size());
@@ -234,12 +227,16 @@ NoiseModel estimate_noise(const Channel& channel, const Eigen::MatrixXd& other_i
   if (!std::isfinite(best.value)) {
     throw std::invalid_argument("the restricted likelihood of a channel could not be computed anywhere");
   }
-  return {best.level,
-          best.floor,
-          best.rho,
-          -0.5 * best.value,
-          effective_count(best.rho, best.serial_share, channel),
-          best.serial_share};
+  NoiseModel model{best.level, best.floor, best.rho, -0.5 * best.value, 0.0, best.serial_share};
+  model.effective_count = effective_count(model, channel);
+  return model;
+}
+
+double effective_count(const NoiseModel& model, const Channel& channel) {
+  const Eigen::Index count = channel.residuals.size();
+  Eigen::VectorXd ones = Eigen::VectorXd::Ones(count);
+  SerialFilter(model.rho, model.serial_share, count, channel.chain_starts).apply(ones);
+  return ones.squaredNorm();
 }
 
 Whitening::Whitening(const NoiseModel& model, const Channel& channel)

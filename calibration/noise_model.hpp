@@ -85,6 +85,9 @@ inline constexpr double kSplitGain = 2.0;
                                         const Eigen::VectorXd& other_gradient, const NoiseModel& start,
                                         NoiseParts parts = NoiseParts::lasting_and_white);
 
+/// NoiseModel::effective_count of a noise for a channel.
+[[nodiscard]] double effective_count(const NoiseModel& model, const Channel& channel);
+
 /// Frees values of a channel of its noise: r/sd, then the innovations of SerialFilter; with serial_share 1,
 /// r_i' = (r_i/sd_i - rho r_{i-1}/sd_{i-1})/sqrt(1 - rho^2), the first of a chain r/sd. Residuals of that
 /// noise become independent, of unit variance.

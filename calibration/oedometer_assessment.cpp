@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "calibration/fit_oedometer.hpp"
+#include "calibration/fit_profile.hpp"
 #include "calibration/parallel.hpp"
 #include "calibration/profile_verdict.hpp"
 #include "calibration/uncertainty.hpp"
@@ -82,17 +81,8 @@ std::optional<FitFailure> assess(const datasets::Study& study, const CoordinateS
   report(0.25, "profile likelihood");
   assessment.profiles.resize(x.size());
   const double quantile = result.uncertainty.quantile();
-  parallel_for(x.size(), options.threads, [&](std::size_t k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    const double error = result.uncertainty.in_null_direction(k)
-                             ? std::numeric_limits<double>::infinity()
-                             : std::sqrt(result.uncertainty.covariance(i, i));
-    // where residuals keep a correlation the misfit has to rise by more for the same interval
-    const double ratio = std::isfinite(error) && fit.white_covariance(i, i) > 0.0
-                             ? result.uncertainty.covariance(i, i) / fit.white_covariance(i, i)
-                             : 1.0;
-    assessment.profiles[k] = profile(serial, x, k, error, quantile * quantile * ratio, quiet);
-  });
+  parallel_for(x.size(), options.threads,
+               [&](std::size_t k) { assessment.profiles[k] = profile_of(fit, serial, k, quantile, quiet); });
   if (quiet.stopped()) return FitFailure{"interrupted", true};
   for (std::size_t k = 0; k < x.size(); ++k) {
     const Profile& found = assessment.profiles[k];

@@ -19,6 +19,7 @@ namespace {
 using calibration::FitFailure;
 using Effects = std::vector<const effects::Effect*>;
 
+constexpr auto kNoise = calibration::NoiseParts::lasting_and_white;
 constexpr std::size_t kNeighbours = 3;  // of the smoother, on either side
 
 /// What the mean of a value's neighbours leaves of it: what a curve drawn through the readings would reach.
@@ -48,7 +49,7 @@ class Search {
     fit_options_.threads = options.threads;
     fit_options_.depth = calibration::Depth::answer;
     fit_options_.control = options.control;
-    fit_options_.noise = calibration::NoiseParts::lasting_and_white;
+    fit_options_.noise = kNoise;
   }
 
   tl::expected<Discovery, FitFailure> run() {
@@ -73,6 +74,12 @@ class Search {
     }
     if (auto failure = decide()) return tl::unexpected(*failure);
     if (auto failure = place()) return tl::unexpected(*failure);
+    if (found_.chosen) {
+      tell(0.95, "how well its amplitude is known");
+      found_.amplitudes = amplitude_intervals(study_, found_.trials[*found_.chosen].candidate, kIntervalLevel,
+                                              options_.threads, options_.control);
+      if (auto interrupted = stopped()) return tl::unexpected(*interrupted);
+    }
     propose_next();
     tell(1.0, "done");
     return std::move(found_);
@@ -310,11 +317,17 @@ class Search {
     return std::nullopt;
   }
 
-  /// Where the base fails, by the best trial where it is an explanation.
+  /// Where the base fails, by the best trial where it is an explanation. Stages of one test are set beside
+  /// those of another: which is missed by more should not turn on how well each test's own noise could be
+  /// estimated, so that tests whose noise is stated alike have one here.
   std::optional<FitFailure> place() {
     if (found_.verdict != Verdict::named && found_.verdict != Verdict::ambiguous) return std::nullopt;
     const Candidate& best = found_.trials.front().candidate;
-    return rank_by_explanation(study_, found_.base.candidate, best, best.fit.noise.weights, options_.threads,
+    const auto noise =
+        calibration::fit_noise(calibration::problem_of(study_, best.fit, best.free, options_.threads),
+                               best.fit.result.main.coordinates, {kNoise, true});
+    if (!noise) return FitFailure{"noise: " + noise.error().message};
+    return rank_by_explanation(study_, found_.base.candidate, best, noise->weights, options_.threads,
                                found_.disagreement);
   }
 

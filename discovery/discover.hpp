@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "discovery/amplitude_interval.hpp"
 #include "discovery/candidate.hpp"
 #include "discovery/disagreement.hpp"
 #include "discovery/next_experiment.hpp"
@@ -56,6 +57,7 @@ struct Discovery {
   std::vector<Trial> trials;  ///< by BIC, the best first
   std::vector<std::pair<const effects::Effect*, std::string>> not_tried;  ///< and why
   std::optional<std::size_t> chosen;                                      ///< of the trials, where named
+  std::vector<AmplitudeInterval> amplitudes;                              ///< of what is chosen
   /// Trials that the data cannot tell apart, where ambiguous; the best alone where but one test is fitted.
   std::vector<std::size_t> equivalent;
   std::vector<Condition> conditions;       ///< of a name, on the best trial

@@ -69,6 +69,10 @@ class SlumpSearch {
     }
     if (auto failure = compare()) return tl::unexpected(*failure);
     decide(found_);
+    if (found_.chosen) {
+      found_.amplitudes =
+          amplitude_intervals(found_.trials[*found_.chosen].candidate, found_.scale, kIntervalLevel);
+    }
     if (found_.verdict == Verdict::ambiguous) {
       tell(0.95, "which test would decide");
       found_.next = tell_slumps_apart(basis_, found_.trials[found_.equivalent[0]].candidate,

@@ -58,6 +58,7 @@ struct SlumpDiscovery {
   std::vector<SlumpTrial> trials;  ///< by BIC, the best first
   std::vector<std::pair<const effects::Effect*, std::string>> not_tried;
   std::optional<std::size_t> chosen;
+  std::vector<AmplitudeInterval> amplitudes;  ///< of what is chosen
   std::vector<std::size_t> equivalent;
   std::vector<Condition> conditions;
   std::vector<SlumpDisagreement> disagreement;  ///< ranked

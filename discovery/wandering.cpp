@@ -60,14 +60,20 @@ std::string WanderedSlot::title() const {
 WanderTrial try_slot(const WanderedSlot& slot, const Eigen::MatrixXd& left, double plausible,
                      const Eigen::VectorXd& residuals) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] >= kWanderShows) ++rank;
+  // of a direction, what it shows where its largest knot is of plausible size
+  const Eigen::VectorXd shows =
+      svd.singularValues().cwiseQuotient(svd.matrixV().cwiseAbs().colwise().maxCoeff().transpose());
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < shows.size(); ++k) {
+    if (shows[k] >= kWanderShows) kept.push_back(k);
+  }
+  const auto rank = static_cast<Eigen::Index>(kept.size());
   const Eigen::MatrixXd inverse =
-      svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal() * plausible;
+      svd.matrixV()(Eigen::all, kept) * svd.singularValues()(kept).cwiseInverse().asDiagonal() * plausible;
   WanderTrial trial{{slot, static_cast<std::size_t>(rank), 0.0, 1.0, kNoDeviate, {}, {}},
                     {},
                     inverse.rowwise().norm(),
-                    svd.matrixU().leftCols(rank)};
+                    svd.matrixU()(Eigen::all, kept)};
   const Eigen::VectorXd along = -trial.basis.transpose() * residuals;
   trial.change = inverse * along;
   trial.slot.gain = along.squaredNorm();

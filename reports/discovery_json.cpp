@@ -34,6 +34,7 @@ ordered_json discovery_json(const discovery::Discovery& found) {
     json["equivalent"].push_back(names_json(found.trials[k].candidate.added));
   }
   json["effect_parameters"] = values_json(answer.candidate.added, answer.candidate.fit.effects);
+  json["amplitude_intervals"] = intervals_json(found.amplitudes);
   json["gap"] = gap_json(found.base.gap, answer.gap, found.best_wrong, found.smoother);
   json["p_value"] = json_number(found.p_value);
   json["disagreement"] = ordered_json::array();

@@ -47,6 +47,21 @@ std::string values_of(const EffectList& added, const effects::Values<double>& va
   return words;
 }
 
+std::string intervals_words(const std::vector<discovery::AmplitudeInterval>& amplitudes) {
+  std::string words;
+  for (const discovery::AmplitudeInterval& one : amplitudes) {
+    const effects::EffectParameter& parameter = one.effect->parameters[0];
+    const auto end = [&](double value, calibration::ProfileEnd how) {
+      const std::string number = three(value / parameter.to_si);
+      return how == calibration::ProfileEnd::crossed ? number : fmt::format("{} ({})", number, name_of(how));
+    };
+    words += fmt::format("{}{} {} to {}", words.empty() ? "" : ", ", parameter.name,
+                         end(one.lower, one.lower_end), end(one.upper, one.upper_end));
+  }
+  if (words.empty()) return words;
+  return fmt::format(" ({:.0f} % interval: {})", 100.0 * discovery::kIntervalLevel, words);
+}
+
 std::string gap_words(const GapNouns& nouns, const discovery::Gap& before, const discovery::Gap& after,
                       double best_wrong, double smoother) {
   std::string words = fmt::format("{} shrinks from {} to {} times {}", nouns.gap, three(before.fitted),
@@ -91,6 +106,20 @@ ordered_json values_json(const EffectList& added, const effects::Values<double>&
   for_parameters(added, values, [&](const effects::ParameterRef& parameter, double value) {
     json[std::string(parameter.effect->name)][std::string(parameter.info().name)] = json_number(value);
   });
+  return json;
+}
+
+ordered_json intervals_json(const std::vector<discovery::AmplitudeInterval>& amplitudes) {
+  ordered_json json = ordered_json::object();
+  for (const discovery::AmplitudeInterval& one : amplitudes) {
+    const effects::EffectParameter& parameter = one.effect->parameters[0];
+    json[std::string(one.effect->name)] = {{"parameter", std::string(parameter.name)},
+                                           {"lower", json_number(one.lower / parameter.to_si)},
+                                           {"upper", json_number(one.upper / parameter.to_si)},
+                                           {"lower_end", std::string(name_of(one.lower_end))},
+                                           {"upper_end", std::string(name_of(one.upper_end))},
+                                           {"level", json_number(discovery::kIntervalLevel)}};
+  }
   return json;
 }
 

@@ -20,6 +20,10 @@ using EffectList = std::vector<const effects::Effect*>;
 /// "name = 0.1, other = 2" of their parameters, in the units of files.
 [[nodiscard]] std::string values_of(const EffectList& added, const effects::Values<double>& values);
 
+/// " (name 0.08 to 0.12)" of amplitudes that tests do not exclude, in the units of files; with what ends an
+/// interval where that is not the misfit.
+[[nodiscard]] std::string intervals_words(const std::vector<discovery::AmplitudeInterval>& amplitudes);
+
 /// Whose gap it is ("the gap of the outlines"), what it is counted in, and what a smoother follows.
 struct GapNouns {
   std::string gap;
@@ -40,6 +44,9 @@ void add_not_tried(Page& page, const std::vector<std::pair<const effects::Effect
 /// {"effect": {"parameter": value in the unit of files}}.
 [[nodiscard]] nlohmann::ordered_json values_json(const EffectList& added,
                                                  const effects::Values<double>& values);
+/// By effect the amplitude's name, ends (in the unit of files), what ends it, and the level.
+[[nodiscard]] nlohmann::ordered_json intervals_json(
+    const std::vector<discovery::AmplitudeInterval>& amplitudes);
 [[nodiscard]] nlohmann::ordered_json gap_json(const discovery::Gap& before, const discovery::Gap& after,
                                               double best_wrong, double smoother);
 [[nodiscard]] nlohmann::ordered_json conditions_json(const std::vector<discovery::Condition>& conditions);

@@ -61,8 +61,9 @@ void add_verdict(Page& page, const Discovery& found) {
       return;
     case Verdict::named: {
       const Trial& best = found.trials[*found.chosen];
-      page.verdict(Tone::warning, fmt::format("The model lacks {}: the data are consistent with {}.",
-                                              described(best.candidate.added), values_of(best.candidate)));
+      page.verdict(Tone::warning, fmt::format("The model lacks {}: the data are consistent with {}{}.",
+                                              described(best.candidate.added), values_of(best.candidate),
+                                              intervals_words(found.amplitudes)));
       page.verdict(Tone::good, gap_words(found, best));
       return;
     }

@@ -63,8 +63,10 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
       return;
     case Verdict::named: {
       const SlumpTrial& best = found.trials[*found.chosen];
-      page.verdict(Tone::warning, fmt::format("Slumps: the model lacks {}: the data are consistent with {}.",
-                                              described(best.candidate.added), values_of(best.candidate)));
+      page.verdict(Tone::warning,
+                   fmt::format("Slumps: the model lacks {}: the data are consistent with {}{}.",
+                               described(best.candidate.added), values_of(best.candidate),
+                               intervals_words(found.amplitudes)));
       page.verdict(Tone::good, gap_words(found) + worst_place_words(found));
       return;
     }
@@ -278,6 +280,7 @@ ordered_json discovery_json(const SlumpDiscovery& found) {
     json["equivalent"].push_back(names_json(found.trials[k].candidate.added));
   }
   json["effect_parameters"] = values_json(answer.candidate.added, answer.candidate.effects);
+  json["amplitude_intervals"] = intervals_json(found.amplitudes);
   json["gap"] = gap_json(found.base.gap, answer.gap, found.best_wrong, found.smoother);
   json["p_value"] = json_number(found.p_value);
   json["disagreement"] = ordered_json::array();

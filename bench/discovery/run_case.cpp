@@ -8,7 +8,6 @@
 
 #include "bench/discovery/caught.hpp"
 #include "bench/discovery/made_study.hpp"
-#include "calibration/distributions.hpp"
 #include "discovery/discover.hpp"
 
 namespace isotach::bench {
@@ -53,15 +52,13 @@ std::optional<bool> place_is_right(const MadeStudy& made, const discovery::Disco
   return first ? std::optional(right) : std::nullopt;
 }
 
-void note_amplitude(const discovery::Candidate& named, const effects::Effect& hidden, Record& record) {
-  for (const calibration::LocalEstimate& estimate : named.fit.result.local_estimates) {
-    if (!estimate.effect || estimate.effect->effect != &hidden || estimate.effect->index != 0) continue;
-    const double half =
-        estimate.std_error * calibration::student_t_quantile(0.95, named.fit.result.uncertainty.degrees);
-    record.amplitude = estimate.value;
-    record.lower = estimate.value - half;
-    record.upper = estimate.value + half;
-  }
+void note_amplitude(const datasets::Study& study, const discovery::Candidate& named, Record& record) {
+  constexpr double kLevel = 0.9;
+  const discovery::AmplitudeInterval interval =
+      discovery::amplitude_intervals(study, named, kLevel, 1, {}).front();
+  record.amplitude = interval.value;
+  record.lower = interval.lower;
+  record.upper = interval.upper;
 }
 
 void note_answer(const Case& one, const MadeStudy& made, const discovery::Discovery& found, Record& record) {
@@ -83,7 +80,7 @@ void note_answer(const Case& one, const MadeStudy& made, const discovery::Discov
   record.gap_after = named.gap.fitted;
   record.held_out_after = named.gap.held_out;
   if (one.kind == Kind::effect && record.named == record.hidden) {
-    note_amplitude(named.candidate, *one.effects.front(), record);
+    note_amplitude(made.study, named.candidate, record);
   }
 }
 

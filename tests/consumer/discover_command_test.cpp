@@ -48,6 +48,10 @@ TEST_F(DiscoverCommand, NamesWhatClosesTheGapOfMudB) {
   EXPECT_GT(gap["best_wrong_after"].get<double>(), 2.0 * gap["after"].get<double>());
   const std::string effect = oedometer["effects"][0];
   EXPECT_FALSE(oedometer["effect_parameters"][effect].empty());
+  const json& interval = oedometer["amplitude_intervals"][effect];
+  const double amplitude = oedometer["effect_parameters"][effect][interval["parameter"].get<std::string>()];
+  EXPECT_LT(interval["lower"].get<double>(), amplitude);
+  EXPECT_GT(interval["upper"].get<double>(), amplitude);
   // by what the name explains, then the stages of the test held out by their residuals
   double before = std::numeric_limits<double>::infinity();
   bool held_out = false;

@@ -73,6 +73,47 @@ TEST(NoiseFit, WeightsMakeTheCovarianceThatOfTheNoise) {
   EXPECT_NEAR(white->squaredNorm() / kCount, 1.0, 0.05);
 }
 
+// Shared by two tests, the level scatters by half as much in variance as each test's own; over 40 draws the
+// ratio of variances is known to a quarter or so.
+TEST(NoiseFit, OfTestsOfOneApparatusIsThatOfAll) {
+  constexpr std::size_t kCount = 200;
+  constexpr unsigned kDraws = 40;
+  double own = 0.0;
+  double shared = 0.0;
+  for (unsigned draw = 0; draw < kDraws; ++draw) {
+    const Problem problem =
+        problem_of({noisy_line(kCount, 0.03, 0.6, 2 * draw), noisy_line(kCount, 0.03, 0.6, 2 * draw + 1)},
+                   {e100, lambda});
+    const auto apart = fit_noise(problem, kAnswer);
+    const auto together = fit_noise(problem, kAnswer, {NoiseParts::lasting, true});
+    ASSERT_TRUE(apart && together);
+    ASSERT_EQ(together->channels.size(), 2U);
+    EXPECT_EQ(together->channels[0].model.level, together->channels[1].model.level);
+    EXPECT_EQ(together->channels[0].model.rho, together->channels[1].model.rho);
+    own += std::pow(apart->channels[0].model.level - 0.03, 2);
+    shared += std::pow(together->channels[0].model.level - 0.03, 2);
+    // what two chains hold, each of it
+    EXPECT_NEAR(together->channels[0].model.effective_count, together->channels[1].model.effective_count,
+                1e-9);
+    EXPECT_LT(together->channels[0].model.effective_count, 0.5 * kCount);
+  }
+  EXPECT_GT(own / shared, 1.3);
+  EXPECT_LT(own / shared, 3.0);
+}
+
+TEST(NoiseFit, OfTestsThatScatterDifferentlyIsTheirOwn) {
+  constexpr std::size_t kCount = 200;
+  const Problem problem =
+      problem_of({noisy_line(kCount, 0.03, 0.6, 1), noisy_line(kCount, 0.06, 0.6, 2)}, {e100, lambda});
+  const auto apart = fit_noise(problem, kAnswer);
+  const auto together = fit_noise(problem, kAnswer, {NoiseParts::lasting, true});
+  ASSERT_TRUE(apart && together);
+  for (std::size_t k : {0U, 1U}) {
+    EXPECT_EQ(together->channels[k].model.level, apart->channels[k].model.level);
+    EXPECT_EQ(together->channels[k].model.rho, apart->channels[k].model.rho);
+  }
+}
+
 TEST(NoiseFit, TooFewValuesKeepTheNoiseStated) {
   const Problem problem = problem_of({noisy_line(9, 0.03, 0.0, 3)}, {e100, lambda});
   const auto fit = fit_noise(problem, kAnswer);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "calibration/distributions.hpp"
 #include "discovery/discover.hpp"
 #include "discovery/left_out.hpp"
 #include "discovery/limits.hpp"
@@ -76,6 +77,62 @@ TEST(Discovery, HiddenRingFrictionIsNamed) {
   EXPECT_LT(named.gap.held_out, found.base.gap.held_out);
   EXPECT_NEAR(named.gap.held_out, 1.0, 0.2);
   EXPECT_GE(found.best_wrong, named.gap.fitted);
+  ASSERT_EQ(found.amplitudes.size(), 1U);
+  const AmplitudeInterval& interval = found.amplitudes.front();
+  EXPECT_EQ(interval.effect, &friction);
+  EXPECT_EQ(interval.value, (named.candidate.fit.effects[effects::ParameterRef{&friction, 0}]));
+  EXPECT_LT(interval.lower, kFriction);
+  EXPECT_GT(interval.upper, kFriction);
+  EXPECT_EQ(interval.lower_end, calibration::ProfileEnd::crossed);
+  EXPECT_EQ(interval.upper_end, calibration::ProfileEnd::crossed);
+}
+
+// Readings are nearly linear in the friction: there the profile's interval is that of the standard error.
+TEST(AmplitudeInterval, OfAnAmplitudeThatActsLinearlyIsThatOfItsStandardError) {
+  const effects::Effect& friction = *effects::find_effect("ring_friction");
+  const datasets::Study study =
+      hidden(*effects::Values<double>::create({effects::with_amplitude(friction, 0.1)}));
+  const auto candidate = fit_with(study, study.material, {&friction}, quick());
+  ASSERT_TRUE(candidate.has_value()) << candidate.error().message;
+  const calibration::LocalEstimate& linear = candidate->fit.result.local_estimates.back();
+  ASSERT_EQ(linear.effect->effect, &friction);
+  for (const double level : {0.68, 0.95}) {
+    const auto intervals = amplitude_intervals(study, *candidate, level, 2, {});
+    ASSERT_EQ(intervals.size(), 1U);
+    const double half =
+        linear.std_error *
+        calibration::student_t_quantile(0.5 * (1.0 + level), candidate->fit.result.uncertainty.degrees);
+    EXPECT_NEAR(intervals[0].lower, linear.value - half, 0.03 * half) << level;
+    EXPECT_NEAR(intervals[0].upper, linear.value + half, 0.03 * half) << level;
+  }
+}
+
+// Amplitude and decay of a structure trade off: the misfit of a smaller one grows faster than that of a
+// larger one, and both ends of the interval meet the data as badly.
+TEST(AmplitudeInterval, EndsWhereTheDataAreMetAsBadlyOnBothSides) {
+  const effects::Effect& structure = *effects::find_effect("structure");
+  const datasets::Study study =
+      hidden(*effects::Values<double>::create({effects::with_amplitude(structure, 0.3)}));
+  const auto candidate = fit_with(study, study.material, {&structure}, quick());
+  ASSERT_TRUE(candidate.has_value()) << candidate.error().message;
+  const auto intervals = amplitude_intervals(study, *candidate, 0.95, 2, {});
+  ASSERT_EQ(intervals.size(), 1U);
+  const auto chi_squared_at = [&](double amplitude) {
+    const calibration::Problem problem = calibration::problem_of(study, candidate->fit, candidate->free, 2);
+    const auto& coordinates = problem.parametrisation().coordinates();
+    std::vector<double> x = candidate->fit.result.main.coordinates;
+    calibration::CeresOptions options;
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      if (coordinates[k].effect != effects::ParameterRef{&structure, 0}) continue;
+      x[k] = coordinates[k].of_quantity(amplitude);
+      options.held = {k};
+    }
+    return 2.0 * calibration::minimise_with_ceres(problem, x, options, {}).cost;
+  };
+  const double least = chi_squared_at(intervals[0].value);
+  const double t = calibration::student_t_quantile(0.975, candidate->fit.result.uncertainty.degrees);
+  EXPECT_NEAR(chi_squared_at(intervals[0].lower) - least, t * t, 0.05 * t * t);
+  EXPECT_NEAR(chi_squared_at(intervals[0].upper) - least, t * t, 0.05 * t * t);
 }
 
 /// Bounds of kappa that begin so many standard errors above what a fit with the effect finds.
@@ -181,6 +238,16 @@ const WanderingSlot& first_over(const Wandering& wandering, const WanderAxis& al
 }
 
 // An error of the load cell's zero is in no catalogue: a/sigma of the stress read, and nothing else.
+// Knots that do the same, each by `shows` sigma, do so together: four of them by four times as much.
+TEST(Wandering, CountsADirectionByItsLargestKnot) {
+  const auto rank = [](double shows) {
+    const Eigen::MatrixXd left = shows * Eigen::Vector3d(0.6, 0.0, 0.8) * Eigen::RowVector4d::Ones();
+    return try_slot({"lambda", &kOverTime, true}, left, 0.1, Eigen::Vector3d::Zero()).basis.cols();
+  };
+  EXPECT_EQ(rank(1.01 * kWanderShows / 4.0), 1);
+  EXPECT_EQ(rank(0.99 * kWanderShows / 4.0), 0);
+}
+
 TEST(Wandering, FindsTheReadingThatIsWrongAndHowWrong) {
   constexpr double kZero = 400.0;  // Pa
   datasets::Study study = hidden({});

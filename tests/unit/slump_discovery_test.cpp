@@ -126,9 +126,14 @@ TEST(SlumpDiscovery, FindsNothingWhereNothingIsHidden) {
 
 TEST(SlumpDiscovery, NamesTheAdhesionThatIsHidden) {
   constexpr double kAdhesion = 40.0;  // Pa
+  int held = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const SlumpDiscovery found = discovered(study_of(only(effects::wall_adhesion::kEffect, kAdhesion), seed));
     ASSERT_EQ(found.verdict, Verdict::named) << seed;
+    ASSERT_EQ(found.amplitudes.size(), 1U);
+    const AmplitudeInterval& interval = found.amplitudes.front();
+    if (interval.lower < kAdhesion && interval.upper > kAdhesion) ++held;
+    EXPECT_LT(interval.upper - interval.lower, 0.4 * kAdhesion);
     const SlumpTrial& best = found.trials[*found.chosen];
     ASSERT_EQ(name_of(best.candidate), "wall_adhesion") << seed;
     const double amplitude =
@@ -143,6 +148,7 @@ TEST(SlumpDiscovery, NamesTheAdhesionThatIsHidden) {
     EXPECT_LT(std::abs(found.disagreement.front().mean_by_best),
               0.5 * std::abs(found.disagreement.front().mean));
   }
+  EXPECT_GE(held, 4) << "of five intervals of 95 %";
 }
 
 // Of wall, base and strength it is the wall that would have to be another, in every test by as much.
