@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <random>
 
 #include "bench/discovery/made_study.hpp"
 #include "bench/discovery/plan.hpp"
+#include "bench/discovery/slump_visibility.hpp"
 #include "bench/outline_noise.hpp"
 #include "bench/synthetic_oedometer.hpp"
 #include "calibration/fit_slump.hpp"
 #include "calibration/simulation_error.hpp"
-#include "datasets/slump_effects.hpp"
-#include "discovery/linear_model.hpp"
+#include "effects/bleeding.hpp"
 
 namespace isotach::bench {
 
@@ -24,15 +23,12 @@ using datasets::SlumpTest;
 using model::ParameterId;
 
 // cells across the mould's radius, of the conserving scheme
-constexpr int kFitterCells = 6;      // 6.5 mm
-constexpr int kReferenceCells = 10;  // 3.9 mm
-constexpr int kSeekCells = 8;        // 4.9 mm, where an amplitude is sought
-constexpr int kGeneratorCells = 11;  // 3.5 mm
-constexpr double kLongest = 10.0;    // s, of mud
-constexpr std::size_t kPoints = 30;  // of an outline
-// what oedometer tests leave of I_v (relative) and C_1
-constexpr double kKnownViscosity = 0.03;
-constexpr double kKnownC1 = 0.005;
+constexpr int kFitterCells = 6;         // 6.5 mm
+constexpr int kReferenceCells = 10;     // 3.9 mm
+constexpr std::array kSeekCells{8, 9};  // 4.9 and 4.3 mm, where an amplitude is sought
+constexpr int kGeneratorCells = 11;     // 3.5 mm
+constexpr double kLongest = 10.0;       // s, of mud
+constexpr KnownBeforehand kKnown{.viscosity = 0.03, .c1 = 0.005};
 
 /// Half of the variance is each point's own, half is shared.
 OutlineNoise noise_of(const SlumpCase& one) {
@@ -72,137 +68,34 @@ std::vector<SlumpTest> blank_tests(const datasets::Study& from, const OutlineNoi
   return tests;
 }
 
-const experiments::Simulate simulate = calibration::plain_simulation(nullptr);
-
-/// Numerics in which an amplitude is sought.
-void set_to_seek(SlumpTest& test) {
-  set_cells(test.setup.numerics, test, kSeekCells);
+/// Water twice as stiff as that of fits. But not where it bleeds: how much leaves at a rate is for the
+/// stiffness to say, which then is of what is hidden.
+void set_water(mpm::Numerics& numerics, const SlumpCase& one) {
+  if (one.effect != &effects::bleeding::kEffect) numerics.water_bulk_modulus *= 2.0;
 }
 
-/// Numerics in which studies are measured: finer and stricter than any that fits use, with stiffer water.
-void set_to_measure(SlumpTest& test) {
-  mpm::Numerics& numerics = test.setup.numerics;
-  set_cells(numerics, test, kGeneratorCells);
-  numerics.points_per_cell = 9;
-  numerics.tolerance = 1e-3;
-  numerics.water_bulk_modulus *= 2.0;
-  numerics.courant = 0.6;
-  numerics.inertia_scaling = 50.0;
+/// Tests in numerics in which an amplitude is sought.
+std::vector<SlumpTest> set_to_seek(std::vector<SlumpTest> tests, const SlumpCase& one, int cells) {
+  for (SlumpTest& test : tests) {
+    set_cells(test.setup.numerics, test, cells);
+    set_water(test.setup.numerics, one);
+  }
+  return tests;
 }
 
-/// Tests as they are with some numerics, at the truth.
-class Generator {
- public:
-  Generator(std::vector<SlumpTest> tests, const model::Parameters<double>& truth,
-            const std::function<void(SlumpTest&)>& set_numerics)
-      : tests_(std::move(tests)), truth_(truth) {
-    for (SlumpTest& test : tests_) set_numerics(test);
+/// Tests in numerics in which studies are measured: finer and stricter than any that fits use.
+std::vector<SlumpTest> set_to_measure(std::vector<SlumpTest> tests, const SlumpCase& one) {
+  for (SlumpTest& test : tests) {
+    mpm::Numerics& numerics = test.setup.numerics;
+    set_cells(numerics, test, kGeneratorCells);
+    set_water(numerics, one);
+    numerics.points_per_cell = 9;
+    numerics.tolerance = 1e-3;
+    numerics.courant = 0.6;
+    numerics.inertia_scaling = 50.0;
   }
-
-  /// Puts what the tests show with the effects in the place of what was measured.
-  [[nodiscard]] std::optional<std::string> measure(const effects::Values<double>& effects) {
-    for (SlumpTest& test : tests_) {
-      const auto result = simulate(test.name, truth_, datasets::with_effects(test.setup, effects));
-      if (!result) return test.name + ": " + result.error().message;
-      for (std::size_t k = 0; k < test.outlines.size(); ++k) {
-        test.outlines[k].points.clear();
-        for (const auto& point : experiments::resampled(result->outlines[k].points, kPoints)) {
-          test.outlines[k].points.push_back({point.r, point.z});
-        }
-      }
-    }
-    return std::nullopt;
-  }
-  [[nodiscard]] const std::vector<SlumpTest>& tests() const { return tests_; }
-
-  /// The fitted tests as they were measured, with what discovery's simulations are unsure of in their
-  /// covariance.
-  [[nodiscard]] std::vector<std::shared_ptr<const experiments::SlumpExperiment>> experiments(
-      const effects::Values<double>& effects, const calibration::SimulationError& error) const {
-    std::vector<std::shared_ptr<const experiments::SlumpExperiment>> all;
-    for (std::size_t i = 0; i < tests_.size(); ++i) {
-      if (tests_[i].hold_out) continue;
-      all.push_back(std::make_shared<experiments::SlumpExperiment>(
-          tests_[i], experiments::SlumpModel{
-                         .simulate = simulate, .simulation_error = error.of(i), .effects = effects}));
-    }
-    return all;
-  }
-
-  /// Decorrelated distances of the fitted tests' outlines, as they were measured, from those with effects.
-  [[nodiscard]] std::optional<Eigen::VectorXd> seen(const effects::Values<double>& effects,
-                                                    const model::Parameters<double>& parameters,
-                                                    const calibration::SimulationError& error) const {
-    std::vector<double> all;
-    for (const auto& experiment : experiments(effects, error)) {
-      const auto values = experiment->predict(parameters, experiment->local_values());
-      if (!values) return std::nullopt;
-      all.insert(all.end(), values->begin(), values->end());
-    }
-    return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
-  }
-
- private:
-  std::vector<SlumpTest> tests_;
-  model::Parameters<double> truth_;
-};
-
-/// How plainly effects show in slump tests: by the covariance of their outlines and of discovery's
-/// simulations, freed of what the base's parameters and errors that all tests share can do.
-class SlumpVisibility {
- public:
-  /// Nothing where the truth cannot be simulated.
-  static std::optional<SlumpVisibility> at(const Generator& generator, const model::Parameters<double>& truth,
-                                           const calibration::SimulationError& error) {
-    auto unchanged = generator.seen({}, truth, error);
-    if (!unchanged) return std::nullopt;
-    const Eigen::MatrixXd shared = calibration::directions_of(error, generator.experiments({}, error));
-    const Eigen::Index rows = unchanged->size();
-    // with rows that say how far each column may go: one standard error of what is known
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows + 2 + shared.cols(), 2 + shared.cols());
-    for (Eigen::Index k = 0; k < 2; ++k) {
-      model::ParameterValues<double> moved = truth.values();
-      if (k == 0) {
-        moved[ParameterId::I_v] *= std::exp(kKnownViscosity);
-      } else {
-        moved[ParameterId::C_1] += kKnownC1;
-      }
-      const auto there = generator.seen({}, *model::Parameters<double>::create(moved), error);
-      if (!there) return std::nullopt;
-      columns.col(k).head(rows) = *there - *unchanged;
-    }
-    if (shared.cols() > 0) columns.topRightCorner(rows, shared.cols()) = shared;
-    columns.bottomRows(columns.cols()).setIdentity();
-    return SlumpVisibility(generator, truth, error, std::move(*unchanged), columns);
-  }
-
-  /// Signal to noise; nothing where it cannot be simulated.
-  [[nodiscard]] std::optional<double> of(const effects::Values<double>& effects) const {
-    const auto there = generator_->seen(effects, truth_, *error_);
-    if (!there) return std::nullopt;
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(rows_);
-    change.head(there->size()) = *there - unchanged_;
-    return base_.freed(change).norm();
-  }
-
- private:
-  SlumpVisibility(const Generator& generator, const model::Parameters<double>& truth,
-                  const calibration::SimulationError& error, Eigen::VectorXd unchanged,
-                  const Eigen::MatrixXd& columns)
-      : generator_(&generator),
-        truth_(truth),
-        error_(&error),
-        unchanged_(std::move(unchanged)),
-        rows_(columns.rows()),
-        base_(columns) {}
-
-  const Generator* generator_;
-  model::Parameters<double> truth_;
-  const calibration::SimulationError* error_;
-  Eigen::VectorXd unchanged_;
-  Eigen::Index rows_;
-  discovery::Projection base_;
-};
+  return tests;
+}
 
 /// Moves each point along its outline's normal by its error, outwards.
 void add_noise(SlumpTest& test, const OutlineNoise& noise, std::mt19937_64& random) {
@@ -260,11 +153,17 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
   MadeSlumpStudy made{{"synthetic", {}, truth, {}, {}, {}, blank_tests(from, noise), {}}, {truth, {}}};
   effects::Values<double> hidden;
   if (one.effect != nullptr) {
-    Generator quick(made.study.slump_tests, truth, set_to_seek);
-    if (auto failure = quick.measure({})) return tl::unexpected(*failure);
-    const auto error = calibration::measure_simulation_error(made.study, truth, simulate, 1);
+    const auto seeking = [&](int cells) {
+      return SlumpGenerator(set_to_seek(made.study.slump_tests, one, cells), truth);
+    };
+    std::array quick{seeking(kSeekCells[0]), seeking(kSeekCells[1])};
+    for (SlumpGenerator& numerics : quick) {
+      if (auto failure = numerics.measure({})) return tl::unexpected(*failure);
+    }
+    const auto error =
+        calibration::measure_simulation_error(made.study, truth, calibration::plain_simulation(nullptr), 1);
     if (!error) return tl::unexpected(error.error().message);
-    const auto visibility = SlumpVisibility::at(quick, truth, *error);
+    const auto visibility = SlumpVisibility::at(quick, *error, kKnown);
     if (!visibility) return tl::unexpected(std::string("no derivatives at the truth"));
     const auto with = [&](double amplitude) {
       return effects::Values<double>::create({effects::with_amplitude(*one.effect, amplitude)});
@@ -281,7 +180,7 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
     if (!made.reached) return made;
     hidden = *with(sought.amplitude);
   }
-  Generator generator(made.study.slump_tests, truth, set_to_measure);
+  SlumpGenerator generator(set_to_measure(made.study.slump_tests, one), truth);
   if (auto failure = generator.measure(hidden)) return tl::unexpected(*failure);
   for (std::size_t i = 0; i < generator.tests().size(); ++i) {
     SlumpTest& test = made.study.slump_tests[i];
@@ -290,13 +189,13 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
   }
   // oedometer tests know I_v and C_1 so well, and the rest exactly
   model::ParameterValues<double> known = truth.values();
-  known[ParameterId::I_v] *= std::exp(kKnownViscosity * normal(random));
-  known[ParameterId::C_1] = std::max(0.0, known[ParameterId::C_1] + kKnownC1 * normal(random));
+  known[ParameterId::I_v] *= std::exp(kKnown.viscosity * normal(random));
+  known[ParameterId::C_1] = std::max(0.0, known[ParameterId::C_1] + kKnown.c1 * normal(random));
   const auto place = [](ParameterId id) { return static_cast<std::size_t>(id); };
   made.knowledge.parameters = *model::Parameters<double>::create(known);
   made.knowledge.priors[place(ParameterId::I_v)] =
-      datasets::Prior{known[ParameterId::I_v], kKnownViscosity * known[ParameterId::I_v]};
-  made.knowledge.priors[place(ParameterId::C_1)] = datasets::Prior{known[ParameterId::C_1], kKnownC1};
+      datasets::Prior{known[ParameterId::I_v], kKnown.viscosity * known[ParameterId::I_v]};
+  made.knowledge.priors[place(ParameterId::C_1)] = datasets::Prior{known[ParameterId::C_1], kKnown.c1};
   made.study.material = made.knowledge.parameters;
   made.study.fit.slump = {ParameterId::I_v, ParameterId::C_1};
   made.study.fit.bounds[place(ParameterId::I_v)] = datasets::Bounds{0.01, 0.1};
