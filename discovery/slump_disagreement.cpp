@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace isotach::discovery {
 
@@ -11,10 +12,6 @@ namespace {
 constexpr double kToe = 0.25;  // shares of an outline's length, from the toe
 constexpr double kFlank = 0.7;
 constexpr std::size_t kNeighbours = 4;  // of the smoother, on either side
-
-Zone zone_of(double place) {
-  return place < kToe ? Zone::toe : place < kFlank ? Zone::flank : Zone::top;
-}
 
 struct Sums {
   double squares = 0.0;
@@ -30,7 +27,7 @@ void add_test(const experiments::SlumpExperiment& test, const mpm::SlumpResult& 
   std::vector<std::array<Sums, 3>> sums(outlines.size());
   std::vector<bool> gone(outlines.size());
   for (const experiments::OutlineStation& station : test.stations()) {
-    Sums& sum = sums[station.outline][static_cast<std::size_t>(zone_of(station.place))];
+    Sums& sum = sums[station.outline][static_cast<std::size_t>(zone_of(station))];
     for (const std::size_t i : station.points) {
       sum.squares += scaled[i] * scaled[i];
       sum.distance += distances[i];
@@ -71,6 +68,44 @@ std::vector<SlumpDisagreement> slump_disagreement(const SlumpTests& tests,
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
   return all;
+}
+
+Zone zone_of(const experiments::OutlineStation& station) {
+  return station.place < kToe ? Zone::toe : station.place < kFlank ? Zone::flank : Zone::top;
+}
+
+std::vector<std::array<double, 3>> roots_by_zone(const experiments::SlumpExperiment& test,
+                                                 const experiments::Values& of_stations) {
+  std::vector<std::array<double, 3>> roots(test.test().outlines.size(), {0.0, 0.0, 0.0});
+  for (std::size_t k = 0; k < of_stations.size(); ++k) {
+    const experiments::OutlineStation& station = test.stations()[k];
+    double& root = roots[station.outline][static_cast<std::size_t>(zone_of(station))];
+    root = std::hypot(root, of_stations[k]);
+  }
+  return roots;
+}
+
+void rank_by_explanation(const SlumpTests& tests, const std::vector<mpm::SlumpResult>& base,
+                         const std::vector<mpm::SlumpResult>& explanation,
+                         std::vector<SlumpDisagreement>& places) {
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const experiments::SlumpExperiment& test = *tests[i];
+    if (test.held_out()) continue;
+    experiments::Values change = test.distances(base[i]);
+    const experiments::Values with = test.distances(explanation[i]);
+    std::transform(change.begin(), change.end(), with.begin(), change.begin(), std::minus<>());
+    const auto roots = roots_by_zone(test, test.decorrelated(change));
+    for (SlumpDisagreement& place : places) {
+      if (place.test != test.name()) continue;
+      const auto& outlines = test.test().outlines;
+      const auto outline = std::find_if(outlines.begin(), outlines.end(),
+                                        [&](const datasets::Outline& one) { return one.time == place.to; });
+      place.explained =
+          roots[static_cast<std::size_t>(outline - outlines.begin())][static_cast<std::size_t>(place.zone)];
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.explained > b.explained; });
 }
 
 double smoothed_outline_gap(const SlumpTests& tests, const std::vector<mpm::SlumpResult>& simulations) {

@@ -69,6 +69,10 @@ class SlumpSearch {
     }
     if (auto failure = compare()) return tl::unexpected(*failure);
     decide(found_);
+    if (found_.verdict == Verdict::named || found_.verdict == Verdict::ambiguous) {
+      rank_by_explanation(found_.base.candidate.tests, found_.base.simulations,
+                          found_.trials.front().simulations, found_.disagreement);
+    }
     if (found_.chosen) {
       found_.amplitudes =
           amplitude_intervals(found_.trials[*found_.chosen].candidate, found_.scale, kIntervalLevel);

@@ -24,6 +24,10 @@ struct SlumpDisagreement {
   double to;     ///< s, the outline
   double mean;   ///< m, of measured less simulated, outwards
   double score;  ///< root of the sum of squares beyond that of noise, in units of noise
+  /// Root of the sum of squares of what an explanation changes there, in units of the noise and of what
+  /// simulations are unsure of: nearly free of noise. Nothing where there is no explanation, or the test is
+  /// held out.
+  std::optional<double> explained = std::nullopt;
   /// The mean (m) with the best trial; NaN without one.
   double mean_by_best = std::numeric_limits<double>::quiet_NaN();
 };

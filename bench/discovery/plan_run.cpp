@@ -7,7 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "bench/discovery/rates.hpp"
+#include "bench/discovery/rate.hpp"
 
 namespace isotach::bench {
 

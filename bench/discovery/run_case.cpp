@@ -3,25 +3,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <limits>
 
 #include "bench/discovery/caught.hpp"
 #include "bench/discovery/made_study.hpp"
+#include "bench/discovery/note_answer.hpp"
+#include "bench/discovery/rate.hpp"
 #include "discovery/discover.hpp"
 
 namespace isotach::bench {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<std::string> names_of(const discovery::Candidate& candidate) {
-  std::vector<std::string> names;
-  for (const effects::Effect* effect : candidate.added) names.emplace_back(effect->name);
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 /// Whether, of the fitted stages where discovery finds the base to disagree, the first is the one where what
 /// the base cannot take up of the hidden is largest.
@@ -61,35 +52,10 @@ void note_amplitude(const datasets::Study& study, const discovery::Candidate& na
   record.upper = interval.upper;
 }
 
-void note_answer(const Case& one, const MadeStudy& made, const discovery::Discovery& found, Record& record) {
-  record.verdict = name_of(found.verdict);
-  record.p_value = found.p_value;
-  record.gap_before = found.base.gap.fitted;
-  record.held_out_before = found.base.gap.held_out;
-  if (!found.trials.empty()) record.first = names_of(found.trials.front().candidate);
-  for (const std::size_t k : found.equivalent) {
-    record.equivalent.push_back(names_of(found.trials[k].candidate));
-  }
-  for (const discovery::Condition& condition : found.conditions) {
-    if (!condition.holds) record.refused.push_back(condition.text);
-  }
-  if (one.kind != Kind::null) record.place = place_is_right(made, found);
-  if (!found.chosen) return;
-  const discovery::Trial& named = found.trials[*found.chosen];
-  record.named = names_of(named.candidate);
-  record.gap_after = named.gap.fitted;
-  record.held_out_after = named.gap.held_out;
-  if (one.kind == Kind::effect && record.named == record.hidden) {
-    note_amplitude(made.study, named.candidate, record);
-  }
-}
-
 }  // namespace
 
 Record run_case(const Case& one, std::uint64_t seed) {
-  Record record;
-  record.number = one.number;
-  record.seed = seed;
+  Record record = blank_record(one.number, seed);
   record.kind = name_of(one.kind);
   for (const effects::Effect* effect : one.effects) record.hidden.emplace_back(effect->name);
   if (one.outside) record.hidden.emplace_back(info_of(*one.outside).name);
@@ -97,8 +63,6 @@ Record run_case(const Case& one, std::uint64_t seed) {
   record.programme = name_of(one.programme);
   record.noise = one.noise;
   record.wanted = one.visibility;
-  record.gap_after = record.held_out_after = record.amplitude = record.lower = record.upper = kNone;
-
   const auto made = make_study(one, seed);
   if (!made) {
     record.state = "failed";
@@ -120,7 +84,11 @@ Record run_case(const Case& one, std::uint64_t seed) {
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   record.state = found ? "done" : "failed";
   if (found) {
-    note_answer(one, *made, *found, record);
+    note_answer(*found, record);
+    if (one.kind != Kind::null) record.place = place_is_right(*made, *found);
+    if (one.kind == Kind::effect && found->chosen && is_right(record)) {
+      note_amplitude(made->study, found->trials[*found->chosen].candidate, record);
+    }
   } else {
     record.why = found.error().message;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "bench/discovery/made_study.hpp"
@@ -168,9 +169,13 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
     const auto with = [&](double amplitude) {
       return effects::Values<double>::create({effects::with_amplitude(*one.effect, amplitude)});
     };
+    std::map<double, Eigen::VectorXd> lefts;
     const auto shown = [&](double amplitude) -> std::optional<double> {
       const auto on = with(amplitude);
-      return on ? visibility->of(*on) : std::nullopt;
+      const auto found = on ? visibility->of(*on) : std::nullopt;
+      if (!found) return std::nullopt;
+      lefts[amplitude] = found->left;
+      return found->ratio;
     };
     const effects::EffectParameter& info = one.effect->parameters[0];
     const Sought sought = seek_visibility(shown, info.typical_si(), info.upper_si(), one.visibility);
@@ -178,6 +183,7 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
     made.visibility = sought.visibility;
     made.reached = sought.reached;
     if (!made.reached) return made;
+    made.place = largest_place(quick[0].experiments({}, *error), lefts.at(sought.amplitude));
     hidden = *with(sought.amplitude);
   }
   SlumpGenerator generator(set_to_measure(made.study.slump_tests, one), truth);

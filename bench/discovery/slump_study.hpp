@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "bench/discovery/slump_place.hpp"
 #include "discovery/slump_discovery.hpp"
 
 namespace isotach::bench {
@@ -29,6 +31,8 @@ struct MadeSlumpStudy {
   double amplitude = 0.0;                  ///< of the hidden effect, SI
   double visibility = 0.0;
   bool reached = true;  ///< an admissible amplitude shows as asked
+  std::optional<SlumpPlace> place =
+      std::nullopt;  ///< where what is hidden shows most, of what the base does not take up
 };
 
 /// The case's study, the same for the same seed. Errors say what could not be simulated.

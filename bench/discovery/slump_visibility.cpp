@@ -45,7 +45,7 @@ std::optional<SlumpVisibility::View> SlumpVisibility::view_of(const SlumpGenerat
   return View{generator, std::move(*unchanged), columns.rows(), discovery::Projection(columns)};
 }
 
-std::optional<double> SlumpVisibility::of(const effects::Values<double>& effects) const {
+std::optional<SlumpVisibility::Shown> SlumpVisibility::of(const effects::Values<double>& effects) const {
   std::array<Eigen::VectorXd, 2> left;
   for (std::size_t k = 0; k < left.size(); ++k) {
     const View& view = views_[k];
@@ -55,7 +55,8 @@ std::optional<double> SlumpVisibility::of(const effects::Values<double>& effects
     change.head(there->size()) = *there - view.unchanged;
     left[k] = view.base.freed(change);
   }
-  return std::sqrt(std::max(left[0].dot(left[1]), kLeast * kLeast));
+  return Shown{std::sqrt(std::max(left[0].dot(left[1]), kLeast * kLeast)),
+               0.5 * (left[0] + left[1]).head(views_[0].unchanged.size())};
 }
 
 }  // namespace isotach::bench

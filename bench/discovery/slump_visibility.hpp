@@ -29,8 +29,13 @@ class SlumpVisibility {
                                                          const calibration::SimulationError& error,
                                                          const KnownBeforehand& known);
 
-  /// Nothing where the effects cannot be simulated; kLeast where the numerics do not agree on anything.
-  [[nodiscard]] std::optional<double> of(const effects::Values<double>& effects) const;
+  /// What the effects change in the fitted tests' stations, decorrelated, and the base does not take up.
+  struct Shown {
+    double ratio;          ///< signal to noise; kLeast where the numerics do not agree on anything
+    Eigen::VectorXd left;  ///< mean of the two numerics
+  };
+  /// Nothing where the effects cannot be simulated.
+  [[nodiscard]] std::optional<Shown> of(const effects::Values<double>& effects) const;
   static constexpr double kLeast = 0.3;
 
  private:

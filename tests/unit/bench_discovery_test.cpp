@@ -10,6 +10,7 @@
 
 #include "bench/discovery/made_study.hpp"
 #include "bench/discovery/rates.hpp"
+#include "bench/discovery/slump_results.hpp"
 #include "bench/discovery/wilson.hpp"
 #include "bench/synthetic_oedometer.hpp"
 
@@ -209,25 +210,32 @@ TEST_F(JournalTest, NamesTheLineThatIsNoRecord) {
   }
 }
 
+Record outcome(const char* kind, const char* programme, double wanted, const char* hidden,
+               const char* verdict, std::vector<std::string> named) {
+  Record one;
+  one.kind = kind;
+  one.programme = programme;
+  one.wanted = wanted;
+  if (*hidden != '\0') one.hidden = {hidden};
+  one.state = "done";
+  one.verdict = verdict;
+  one.named = std::move(named);
+  return one;
+}
+
+std::map<std::string, Rate> by_name(const std::vector<Rate>& rates) {
+  std::map<std::string, Rate> all;
+  for (const Rate& rate : rates) all[rate.what] = rate;
+  return all;
+}
+
 TEST(Rates, CountWhatTheySay) {
-  const auto make = [](const char* kind, const char* programme, double wanted, const char* hidden,
-                       const char* verdict, std::vector<std::string> named) {
-    Record one;
-    one.kind = kind;
-    one.programme = programme;
-    one.wanted = wanted;
-    if (*hidden != '\0') one.hidden = {hidden};
-    one.state = "done";
-    one.verdict = verdict;
-    one.named = std::move(named);
-    return one;
-  };
-  std::vector<Record> records{make("null", "rich", 0.0, "", "adequate", {}),
-                              make("null", "poor", 0.0, "", "named", {"gas"}),
-                              make("effect", "rich", 30.0, "gas", "named", {"gas"}),
-                              make("effect", "rich", 30.0, "gas", "unknown", {}),
-                              make("effect", "poor", 5.0, "gas", "named", {"seating"}),
-                              make("outside", "rich", 5.0, "frame_slack", "unknown", {})};
+  std::vector<Record> records{outcome("null", "rich", 0.0, "", "adequate", {}),
+                              outcome("null", "poor", 0.0, "", "named", {"gas"}),
+                              outcome("effect", "rich", 30.0, "gas", "named", {"gas"}),
+                              outcome("effect", "rich", 30.0, "gas", "unknown", {}),
+                              outcome("effect", "poor", 5.0, "gas", "named", {"seating"}),
+                              outcome("outside", "rich", 5.0, "frame_slack", "unknown", {})};
   records[2].true_amplitudes = {0.02};
   records[2].amplitude = 0.022;
   records[2].lower = 0.021;
@@ -236,8 +244,7 @@ TEST(Rates, CountWhatTheySay) {
   records[2].held_out_after = std::sqrt(2.0);
   records.push_back(records[2]);
   records.back().state = "out of reach";  // counts nowhere
-  std::map<std::string, Rate> rates;
-  for (const Rate& rate : rates_of(records)) rates[rate.what] = rate;
+  std::map<std::string, Rate> rates = by_name(rates_of(records));
   EXPECT_EQ(rates.at("nulls given a name").counted, "1 of 2");
   EXPECT_EQ(rates.at("wrong name, effect in catalogue").counted, "1 of 3");
   EXPECT_EQ(rates.at("right name, rich protocol, signal to noise 30").counted, "1 of 2");
@@ -251,6 +258,29 @@ TEST(Rates, CountWhatTheySay) {
   EXPECT_EQ(rates.at("its 90 % interval covers the truth").asked, "84 to 96 %");
   EXPECT_EQ(rates.at("two effects at once: both named").met, std::nullopt);
   EXPECT_EQ(rates.at("error of the named amplitude, signal to noise 10 and more, median").found, "10.0 %");
+}
+
+TEST(SlumpRates, CountWhatTheySay) {
+  std::vector<Record> records{outcome("null", "slump", 0.0, "", "unknown", {}),
+                              outcome("effect", "slump", 30.0, "bleeding", "named", {"bleeding"}),
+                              outcome("effect", "slump", 5.0, "bleeding", "ambiguous", {}),
+                              outcome("effect", "slump", 5.0, "lift_delay", "named", {"bleeding"})};
+  records[1].true_amplitudes = {8.0};
+  records[1].amplitude = 6.0;
+  records[1].place = true;
+  records[1].seconds = 700.0;
+  records[2].equivalent = {{"lift_delay"}, {"bleeding"}};
+  records[2].place = false;
+  const auto rates = by_name(slump_rates_of(records));
+  EXPECT_EQ(rates.at("nulls given a name").counted, "0 of 1");
+  EXPECT_EQ(rates.at("nulls rejected").counted, "1 of 1");
+  EXPECT_EQ(rates.at("wrong name").counted, "1 of 3");
+  EXPECT_EQ(rates.at("right name").counted, "1 of 3");
+  EXPECT_EQ(rates.at("right name, or an ambiguous set that holds it").counted, "2 of 3");
+  EXPECT_EQ(rates.at("right name, signal to noise 5").counted, "0 of 2");
+  EXPECT_EQ(rates.at("error of the named amplitude, signal to noise 10 and more, median").found, "25.0 %");
+  EXPECT_EQ(rates.at("zone ranked first, where the base is rejected").counted, "1 of 2");
+  EXPECT_EQ(rates.at("within 10 minutes").counted, "3 of 4");
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ effects::Values<double> adhesion(double kilopascal) {
 double shows(const std::array<SlumpGenerator, 2>& numerics, const effects::Values<double>& effects) {
   const auto visibility = SlumpVisibility::at(numerics, {}, kKnown);
   if (!visibility) throw std::runtime_error("no derivatives at the truth");
-  return visibility->of(effects).value();
+  return visibility->of(effects).value().ratio;
 }
 
 TEST(SlumpVisibility, OfNothingIsTheLeast) {

@@ -151,6 +151,26 @@ TEST(SlumpDiscovery, NamesTheAdhesionThatIsHidden) {
   EXPECT_GE(held, 4) << "of five intervals of 95 %";
 }
 
+// Base and explanation are least squares of nested models: what the one's chi-squared has more than the
+// other's is the square of what lies between their fits.
+TEST(SlumpDiscovery, RanksPlacesByWhatTheExplanationChanges) {
+  const SlumpDiscovery found = discovered(study_of(only(effects::wall_adhesion::kEffect, 40.0), 3));
+  ASSERT_EQ(found.verdict, Verdict::named);
+  double total = 0.0;
+  for (std::size_t k = 0; k < found.disagreement.size(); ++k) {
+    const SlumpDisagreement& place = found.disagreement[k];
+    EXPECT_EQ(place.explained.has_value(), !place.held_out);
+    if (k > 0) {
+      EXPECT_GE(found.disagreement[k - 1].explained, place.explained);
+    }
+    if (place.explained) total += std::pow(*place.explained, 2);
+  }
+  const double gain = found.base.candidate.chi_squared - found.trials[*found.chosen].candidate.chi_squared;
+  EXPECT_GT(gain, 100.0);
+  EXPECT_NEAR(total / gain, 1.0, 0.1);
+  EXPECT_TRUE(found.disagreement.front().lifting) << "when adhesion acts";
+}
+
 // Of wall, base and strength it is the wall that would have to be another, in every test by as much.
 TEST(SlumpDiscovery, SaysWhatWouldHaveToWander) {
   constexpr double kAdhesion = 40.0;  // Pa
