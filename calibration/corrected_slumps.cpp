@@ -10,20 +10,6 @@ namespace isotach::calibration {
 
 namespace {
 
-SlumpExperiments make_experiments(const datasets::Study& study, const effects::Values<double>& effects,
-                                  const experiments::Simulate& simulate, const SimulationError& error,
-                                  const Corrections& corrections) {
-  std::vector<effects::ParameterRef> free;
-  for (const datasets::FreeEffect& one : study.fit.slump_effects) free.push_back(one.parameter);
-  SlumpExperiments all;
-  for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
-    all.push_back(std::make_shared<experiments::SlumpExperiment>(
-        study.slump_tests[i], experiments::SlumpModel{simulate, error.of(i), effects, free,
-                                                      study.fit.slump_mud, corrections.of(i)}));
-  }
-  return all;
-}
-
 /// The study's tests in their order. D_r stays: the oedometer's gauge has been applied.
 Problem make_problem(const SlumpExperiments& all, const datasets::Study& study,
                      const model::Parameters<double>& at, const std::vector<model::ParameterId>& wanted,
@@ -41,6 +27,25 @@ bool is_mud(const Coordinate& coordinate) {
 }
 
 }  // namespace
+
+std::vector<effects::ParameterRef> free_slump_effects(const datasets::Study& study) {
+  std::vector<effects::ParameterRef> free;
+  for (const datasets::FreeEffect& one : study.fit.slump_effects) free.push_back(one.parameter);
+  return free;
+}
+
+SlumpExperiments slump_experiments(const datasets::Study& study, const experiments::Simulate& simulate,
+                                   const SimulationError& error, const Corrections& corrections,
+                                   const effects::Values<double>& effects,
+                                   const std::vector<effects::ParameterRef>& free) {
+  SlumpExperiments all;
+  for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
+    all.push_back(std::make_shared<experiments::SlumpExperiment>(
+        study.slump_tests[i], experiments::SlumpModel{simulate, error.of(i), effects, free,
+                                                      study.fit.slump_mud, corrections.of(i)}));
+  }
+  return all;
+}
 
 SlumpExperiments fitted_of(const SlumpExperiments& all) {
   SlumpExperiments fitted;
@@ -69,7 +74,8 @@ tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study
                                                            const std::vector<model::ParameterId>& wanted,
                                                            const experiments::Simulate& simulate,
                                                            const SimulationError& error, int threads) {
-  SlumpExperiments tests = make_experiments(study, place.effects, simulate, error, {});
+  const std::vector<effects::ParameterRef> free = free_slump_effects(study);
+  SlumpExperiments tests = slump_experiments(study, simulate, error, {}, place.effects, free);
   Problem problem = make_problem(tests, study, place.parameters, wanted, error, threads);
   std::vector<double> start = problem.parametrisation().start();
   const auto& coordinates = problem.parametrisation().coordinates();
@@ -82,7 +88,7 @@ tl::expected<CorrectedSlumps, FitFailure> corrected_slumps(const datasets::Study
   auto corrections = measure_corrections(study, tests, place.parameters, locals, threads);
   if (!corrections) return tl::unexpected(corrections.error());
   if (corrections->any()) {
-    tests = make_experiments(study, place.effects, simulate, error, *corrections);
+    tests = slump_experiments(study, simulate, error, *corrections, place.effects, free);
     const SlumpExperiments fitted = fitted_of(tests);
     problem = problem.with_fitted({fitted.begin(), fitted.end()});
   }

@@ -14,6 +14,16 @@ namespace isotach::calibration {
 
 using SlumpExperiments = std::vector<std::shared_ptr<const experiments::SlumpExperiment>>;
 
+/// All tests of a study, in their order, with effects of which some parameters are `free`.
+[[nodiscard]] SlumpExperiments slump_experiments(const datasets::Study& study,
+                                                 const experiments::Simulate& simulate,
+                                                 const SimulationError& error, const Corrections& corrections,
+                                                 const effects::Values<double>& effects,
+                                                 const std::vector<effects::ParameterRef>& free);
+
+/// The effect parameters that the study lets slump fits move.
+[[nodiscard]] std::vector<effects::ParameterRef> free_slump_effects(const datasets::Study& study);
+
 /// Those that are not held out.
 [[nodiscard]] SlumpExperiments fitted_of(const SlumpExperiments& all);
 

@@ -12,19 +12,15 @@ SlumpCandidate slump_candidate(const SlumpBasis& basis, const std::vector<const 
   SlumpCandidate candidate;
   candidate.added = added;
   candidate.effects = study.effects;
-  std::vector<effects::ParameterRef> free;
-  for (const datasets::FreeEffect& one : study.fit.slump_effects) free.push_back(one.parameter);
+  std::vector<effects::ParameterRef> free = calibration::free_slump_effects(study);
   for (const effects::Effect* effect : added) {
     candidate.effects = *candidate.effects.with(effects::with_amplitude(*effect, 0.0));
     for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
       if (effect->parameters[k].searched()) free.push_back({effect, k});
     }
   }
-  for (std::size_t i = 0; i < study.slump_tests.size(); ++i) {
-    candidate.tests.push_back(std::make_shared<experiments::SlumpExperiment>(
-        study.slump_tests[i], experiments::SlumpModel{basis.simulate, basis.error.of(i), candidate.effects,
-                                                      free, study.fit.slump_mud, basis.corrections.of(i)}));
-  }
+  candidate.tests = calibration::slump_experiments(study, basis.simulate, basis.error, basis.corrections,
+                                                   candidate.effects, free);
   const calibration::Experiments all(candidate.tests.begin(), candidate.tests.end());
   candidate.problem = std::make_shared<calibration::Problem>(
       all,

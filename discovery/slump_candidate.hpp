@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/corrected_slumps.hpp"
 #include "calibration/reference_numerics.hpp"
 #include "calibration/secant_fit.hpp"
 #include "calibration/simulation_error.hpp"
@@ -25,7 +26,7 @@ struct SlumpBasis {
   calibration::OptimiserControl control;
 };
 
-using SlumpTests = std::vector<std::shared_ptr<const experiments::SlumpExperiment>>;
+using SlumpTests = calibration::SlumpExperiments;
 
 /// The fit of one set of effects. Residuals are outlines' distances decorrelated, the simulations' own error
 /// in their covariance.

@@ -39,14 +39,16 @@ std::string gap_words(const SlumpDiscovery& found) {
                             found.trials.front().gap, found.best_wrong, found.smoother);
 }
 
-/// What becomes of the place that the base misses most.
-std::string worst_place_words(const SlumpDiscovery& found) {
+/// What becomes of the place where the explanation shows most.
+std::string plainest_place_words(const SlumpDiscovery& found) {
   if (found.disagreement.empty()) return {};
-  const discovery::SlumpDisagreement& worst = found.disagreement.front();
-  if (!std::isfinite(worst.mean_by_best)) return {};
-  return fmt::format(" Where the base is missed most, {}{} at the {} until {} s, it goes from {} to {} mm.",
-                     worst.test, worst.held_out ? " (held out)" : "", name_of(worst.zone), three(worst.to),
-                     three(worst.mean / kMillimetre), three(worst.mean_by_best / kMillimetre));
+  const discovery::SlumpDisagreement& place = found.disagreement.front();
+  if (!std::isfinite(place.mean_by_best)) return {};
+  return fmt::format(
+      " Where this shows most, {} at the {} between {} and {} s, the mean distance of the outlines goes from "
+      "{} to {} mm.",
+      place.test, name_of(place.zone), three(place.from), three(place.to), three(place.mean / kMillimetre),
+      three(place.mean_by_best / kMillimetre));
 }
 
 void add_verdict(Page& page, const SlumpDiscovery& found) {
@@ -67,7 +69,7 @@ void add_verdict(Page& page, const SlumpDiscovery& found) {
                    fmt::format("Slumps: the model lacks {}: the data are consistent with {}{}.",
                                described(best.candidate.added), values_of(best.candidate),
                                intervals_words(found.amplitudes)));
-      page.verdict(Tone::good, gap_words(found) + worst_place_words(found));
+      page.verdict(Tone::good, gap_words(found) + plainest_place_words(found));
       return;
     }
     case Verdict::ambiguous: {

@@ -20,7 +20,7 @@ namespace {
 using namespace isotach;
 using bench::Record;
 
-constexpr std::uint64_t kReported = 11;  // 1, 6, 7, 8 and 9 have been tuned on
+constexpr std::uint64_t kReported = 12;  // 1, 6, 7, 8 and 9 have been tuned on, 11 has been looked at
 
 Record run_case(const bench::SlumpCase& one, std::uint64_t seed) {
   Record record = bench::blank_record(one.number, seed);
@@ -49,7 +49,7 @@ Record run_case(const bench::SlumpCase& one, std::uint64_t seed) {
   record.state = found ? "done" : "failed";
   if (found) {
     bench::note_answer(*found, record);
-    if (made->place) record.place = bench::first_place(found->disagreement) == made->place;
+    if (made->part) record.place = bench::first_part(found->disagreement) == made->part;
     if (found->chosen && is_right(record)) {
       const discovery::SlumpCandidate& named = found->trials[*found->chosen].candidate;
       record.amplitude = named.effects[effects::ParameterRef{named.added.front(), 0}];

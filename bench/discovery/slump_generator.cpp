@@ -28,9 +28,9 @@ std::optional<std::string> SlumpGenerator::measure(const effects::Values<double>
   return std::nullopt;
 }
 
-std::vector<std::shared_ptr<const experiments::SlumpExperiment>> SlumpGenerator::experiments(
-    const effects::Values<double>& effects, const calibration::SimulationError& error) const {
-  std::vector<std::shared_ptr<const experiments::SlumpExperiment>> all;
+calibration::SlumpExperiments SlumpGenerator::experiments(const effects::Values<double>& effects,
+                                                          const calibration::SimulationError& error) const {
+  calibration::SlumpExperiments all;
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     if (tests_[i].hold_out) continue;
     all.push_back(std::make_shared<experiments::SlumpExperiment>(

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "calibration/simulation_error.hpp"
+#include "calibration/corrected_slumps.hpp"
 #include "datasets/study.hpp"
 #include "experiments/slump_experiment.hpp"
 
@@ -28,8 +27,8 @@ class SlumpGenerator {
 
   /// The fitted tests as they were measured, with what discovery's simulations are unsure of in their
   /// covariance.
-  [[nodiscard]] std::vector<std::shared_ptr<const experiments::SlumpExperiment>> experiments(
-      const effects::Values<double>& effects, const calibration::SimulationError& error) const;
+  [[nodiscard]] calibration::SlumpExperiments experiments(const effects::Values<double>& effects,
+                                                          const calibration::SimulationError& error) const;
 
   /// Decorrelated distances of the fitted tests' outlines, as they were measured, from those with effects;
   /// nothing where those cannot be simulated.

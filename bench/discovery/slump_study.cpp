@@ -183,7 +183,7 @@ tl::expected<MadeSlumpStudy, std::string> make_slump_study(const SlumpCase& one,
     made.visibility = sought.visibility;
     made.reached = sought.reached;
     if (!made.reached) return made;
-    made.place = largest_place(quick[0].experiments({}, *error), lefts.at(sought.amplitude));
+    made.part = plainest_part(quick[0].experiments({}, *error), lefts.at(sought.amplitude));
     hidden = *with(sought.amplitude);
   }
   SlumpGenerator generator(set_to_measure(made.study.slump_tests, one), truth);

@@ -8,7 +8,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "bench/discovery/slump_place.hpp"
+#include "bench/discovery/outline_part.hpp"
 #include "discovery/slump_discovery.hpp"
 
 namespace isotach::bench {
@@ -31,7 +31,7 @@ struct MadeSlumpStudy {
   double amplitude = 0.0;                  ///< of the hidden effect, SI
   double visibility = 0.0;
   bool reached = true;  ///< an admissible amplitude shows as asked
-  std::optional<SlumpPlace> place =
+  std::optional<OutlinePart> part =
       std::nullopt;  ///< where what is hidden shows most, of what the base does not take up
 };
 

@@ -1,5 +1,5 @@
 // Copyright Isotach contributors. SPDX-License-Identifier: BSD-3-Clause
-#include "bench/discovery/slump_place.hpp"
+#include "bench/discovery/outline_part.hpp"
 
 #include <algorithm>
 
@@ -7,9 +7,8 @@
 
 namespace isotach::bench {
 
-SlumpPlace largest_place(const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
-                         const Eigen::VectorXd& left) {
-  SlumpPlace place{discovery::Zone::toe, true};
+OutlinePart plainest_part(const discovery::SlumpTests& tests, const Eigen::VectorXd& left) {
+  OutlinePart part{discovery::Zone::toe, true};
   double largest = -1.0;
   Eigen::Index row = 0;
   for (const auto& test : tests) {
@@ -22,17 +21,17 @@ SlumpPlace largest_place(const std::vector<std::shared_ptr<const experiments::Sl
       const double root = roots[station.outline][static_cast<std::size_t>(zone)];
       if (root <= largest) continue;
       largest = root;
-      place = {zone, !test->mould_gone()[station.points.front()]};
+      part = {zone, !test->mould_gone()[station.points.front()]};
     }
   }
-  return place;
+  return part;
 }
 
-std::optional<SlumpPlace> first_place(const std::vector<discovery::SlumpDisagreement>& disagreement) {
+std::optional<OutlinePart> first_part(const std::vector<discovery::SlumpDisagreement>& disagreement) {
   const auto first = std::find_if(disagreement.begin(), disagreement.end(),
                                   [](const auto& place) { return !place.held_out; });
   if (first == disagreement.end()) return std::nullopt;
-  return SlumpPlace{first->zone, first->lifting};
+  return OutlinePart{first->zone, first->lifting};
 }
 
 }  // namespace isotach::bench

@@ -2,7 +2,7 @@
 // Where a hidden effect shows most in slumps, as the discovery benchmark has it.
 #include <gtest/gtest.h>
 
-#include "bench/discovery/slump_place.hpp"
+#include "bench/discovery/outline_part.hpp"
 #include "discovery/slump_disagreement.hpp"
 
 namespace isotach::bench {
@@ -10,10 +10,10 @@ namespace {
 
 using discovery::Zone;
 
-std::vector<std::shared_ptr<const experiments::SlumpExperiment>> tests_of_mud_a() {
+discovery::SlumpTests tests_of_mud_a() {
   const auto study =
       datasets::read_study(std::filesystem::path(ISOTACH_SOURCE_DIR) / "datasets/mud-a/study.toml");
-  std::vector<std::shared_ptr<const experiments::SlumpExperiment>> all;
+  discovery::SlumpTests all;
   for (std::size_t i = 0; i < 2; ++i) {
     all.push_back(std::make_shared<experiments::SlumpExperiment>(study.slump_tests[i]));
   }
@@ -21,7 +21,7 @@ std::vector<std::shared_ptr<const experiments::SlumpExperiment>> tests_of_mud_a(
 }
 
 // Each zone is made up of several stations: more of a little may be more than one of much.
-TEST(SlumpPlace, IsThatOfTheOutlinesZoneWithMost) {
+TEST(OutlinePart, IsThatOfTheOutlinesZoneWithMost) {
   const auto tests = tests_of_mud_a();
   const std::size_t first = tests[0]->stations().size();
   const std::size_t second = tests[1]->stations().size();
@@ -38,17 +38,17 @@ TEST(SlumpPlace, IsThatOfTheOutlinesZoneWithMost) {
         if (station.outline + 1 == outline) left[static_cast<Eigen::Index>(first + k)] = 2.0;
       }
       ASSERT_GT(outline, 0U) << "mud-a has such a place";
-      EXPECT_EQ(largest_place(tests, left), (SlumpPlace{zone, lifting}));
+      EXPECT_EQ(plainest_part(tests, left), (OutlinePart{zone, lifting}));
     }
   }
 }
 
-TEST(SlumpPlace, TheFirstNamedIsOfAFittedTest) {
-  EXPECT_FALSE(first_place({}));
+TEST(OutlinePart, TheFirstNamedIsOfAFittedTest) {
+  EXPECT_FALSE(first_part({}));
   discovery::SlumpDisagreement held{"a", true, Zone::toe, true, 0.0, 1.0, 0.0, 9.0};
   discovery::SlumpDisagreement fitted{"b", false, Zone::top, false, 1.0, 2.0, 0.0, 3.0};
-  EXPECT_FALSE(first_place({held}));
-  EXPECT_EQ(first_place({held, fitted}), (SlumpPlace{Zone::top, false}));
+  EXPECT_FALSE(first_part({held}));
+  EXPECT_EQ(first_part({held, fitted}), (OutlinePart{Zone::top, false}));
 }
 
 }  // namespace

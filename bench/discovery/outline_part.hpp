@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,20 +10,18 @@
 
 namespace isotach::bench {
 
-struct SlumpPlace {
+struct OutlinePart {
   discovery::Zone zone;
   bool lifting;
 
-  bool operator==(const SlumpPlace&) const = default;
+  bool operator==(const OutlinePart&) const = default;
 };
 
-/// The place of that outline's zone where `left`, a value for each station of the tests, is largest.
-[[nodiscard]] SlumpPlace largest_place(
-    const std::vector<std::shared_ptr<const experiments::SlumpExperiment>>& tests,
-    const Eigen::VectorXd& left);
+/// The part of that outline's zone where `left`, a value for each station of the tests, is largest.
+[[nodiscard]] OutlinePart plainest_part(const discovery::SlumpTests& tests, const Eigen::VectorXd& left);
 
 /// That of the first fitted test's outline that discovery lists; nothing where it lists none.
-[[nodiscard]] std::optional<SlumpPlace> first_place(
+[[nodiscard]] std::optional<OutlinePart> first_part(
     const std::vector<discovery::SlumpDisagreement>& disagreement);
 
 }  // namespace isotach::bench
